@@ -1,0 +1,62 @@
+# A thin wrapper of CMake. `make help` lists the targets.
+
+BUILD ?= build
+TYPE ?= Release
+T ?= .
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+
+BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
+TEST_PACKAGES := libgtest-dev
+CHECK_PACKAGES := clang clang-format
+APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
+
+# Packages of a list that are not installed; none where there is no dpkg to ask.
+missing = $(shell command -v dpkg-query >/dev/null && for p in $(1); do \
+  dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done)
+
+define install
+@set -e; missing="$(call missing,$(1))"; if [ -n "$$missing" ]; then \
+  echo "$(SUDO) apt-get update && $(SUDO) $(APT_INSTALL) $$missing"; \
+  $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
+endef
+
+.PHONY: all help deps deps-check test format format-check sanitize clean ci
+
+all: ## build (installs nothing)
+	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
+	  echo "missing packages; install them with 'make deps', or:"; \
+	  echo "  $(SUDO) $(APT_INSTALL) $$missing"; exit 1; fi
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE)
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+help: ## this list
+	@grep -E '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## /\1\t/' | expand -t 16
+
+deps: ## install what building and testing needs (apt-get; sudo where not root)
+	$(call install,$(BUILD_PACKAGES) $(TEST_PACKAGES))
+
+deps-check: ## install what the format and determinism checks need besides
+	$(call install,$(CHECK_PACKAGES))
+
+test: deps ## install, build, and run all tests (T=regex picks some)
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON -DHEMICUBE_WERROR=ON
+	@cmake --build $(BUILD) --parallel $(JOBS)
+	@cd $(BUILD) && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+
+format: deps-check ## format all sources
+	@git ls-files '*.h' '*.cpp' '*.inl' | xargs clang-format-14 -i
+
+format-check: deps-check ## fail if a source is not formatted
+	@git ls-files '*.h' '*.cpp' '*.inl' | xargs clang-format-14 --dry-run --Werror
+
+sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@cmake -S . -B $(BUILD)/sanitize -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
+	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1"
+	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
+	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+
+ci: test format-check ## what .ci/run runs
+
+clean: ## delete the build folder
+	@rm -rf $(BUILD)

@@ -1,0 +1,50 @@
+#include "raster/memory.h"
+
+#include <cstdlib>
+
+namespace hemicube {
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+
+void* allocate_aligned(std::size_t bytes) {
+  return std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
+}
+
+void release_aligned(void* memory, std::size_t) {
+  std::free(memory);
+}
+
+void stop(const char*, const char*, int) {
+  __builtin_trap();
+}
+
+Allocator g_allocator = {allocate_aligned, release_aligned};
+AssertHandler g_assert_handler = stop;
+
+} // namespace
+
+void set_allocator(const Allocator& allocator) noexcept {
+  g_allocator = allocator;
+}
+void set_assert_handler(AssertHandler handler) noexcept {
+  g_assert_handler = handler;
+}
+
+void assertion_failed(const char* expression, const char* file, int line) noexcept {
+  g_assert_handler(expression, file, line);
+}
+
+namespace detail {
+
+void* allocate(std::size_t bytes) noexcept {
+  return bytes == 0 ? nullptr : g_allocator.allocate(bytes);
+}
+
+void release(void* memory, std::size_t bytes) noexcept {
+  if (memory != nullptr)
+    g_allocator.release(memory, bytes);
+}
+
+} // namespace detail
+} // namespace hemicube

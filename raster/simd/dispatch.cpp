@@ -1,0 +1,61 @@
+#include "raster/simd/dispatch.h"
+
+#include "raster/span_kernel.h"
+
+#include <cstdlib>
+
+namespace hemicube::raster {
+
+extern const Kernels kScalarKernels;
+
+#if defined(__x86_64__)
+extern const Kernels kAvx2Kernels;
+
+namespace {
+
+bool runs_here(const Kernels& kernels) {
+  return &kernels != &kAvx2Kernels || __builtin_cpu_supports("avx2");
+}
+
+const Kernels* const kAllKernels[] = {&kAvx2Kernels, &kScalarKernels};
+
+} // namespace
+
+std::string_view kernel_names() noexcept {
+  return "avx2, scalar";
+}
+
+#else
+namespace {
+
+bool runs_here(const Kernels&) {
+  return true;
+}
+
+const Kernels* const kAllKernels[] = {&kScalarKernels};
+
+} // namespace
+
+std::string_view kernel_names() noexcept {
+  return "scalar";
+}
+#endif
+
+const Kernels* kernels_by_name(std::string_view name) noexcept {
+  for (const Kernels* kernels : kAllKernels)
+    if (name == kernels->name && runs_here(*kernels))
+      return kernels;
+  return nullptr;
+}
+
+const Kernels& best_kernels() noexcept {
+  if (const char* forced = std::getenv("HEMICUBE_ISA"))
+    if (const Kernels* kernels = kernels_by_name(forced))
+      return *kernels;
+  for (const Kernels* kernels : kAllKernels)
+    if (runs_here(*kernels))
+      return *kernels;
+  return kScalarKernels;
+}
+
+} // namespace hemicube::raster

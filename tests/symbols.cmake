@@ -1,0 +1,21 @@
+# Fails unless each ISA object exports exactly its table: anything more could be picked by the linker
+# for machines that cannot run it. Usage: cmake -DOBJECTS=a.o;b.o -DNM=nm -P symbols.cmake
+foreach(object IN LISTS OBJECTS)
+  if(NOT object MATCHES "kernels_[a-z0-9]+\\.cpp")
+    continue()
+  endif()
+  execute_process(COMMAND ${NM} --defined-only --extern-only ${object}
+    OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "nm failed on ${object}")
+  endif()
+  string(REGEX MATCHALL "[^\n]+\n" lines "${symbols}")
+  list(LENGTH lines count)
+  if(NOT count EQUAL 1 OR NOT symbols MATCHES "Kernels")
+    message(FATAL_ERROR "${object} must export its kernel table alone, but exports:\n${symbols}")
+  endif()
+  math(EXPR seen "0${seen} + 1")
+endforeach()
+if(NOT seen)
+  message(FATAL_ERROR "no ISA object was looked at")
+endif()
