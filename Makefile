@@ -21,7 +21,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check test format format-check sanitize clean ci
+.PHONY: all help deps deps-check test format format-check determinism sanitize core golden clean ci
 
 all: ## build (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -50,13 +50,30 @@ format: deps-check ## format all sources
 format-check: deps-check ## fail if a source is not formatted
 	@git ls-files '*.h' '*.cpp' '*.inl' | xargs clang-format-14 --dry-run --Werror
 
+determinism: deps deps-check ## the golden hashes with g++ and clang++, Debug and Release
+	@set -e; for compiler in g++ clang++; do for type in Debug Release; do \
+	  dir=$(BUILD)/determinism/$$compiler-$$type; \
+	  cmake -S . -B $$dir -DCMAKE_CXX_COMPILER=$$compiler -DCMAKE_BUILD_TYPE=$$type \
+	    -DHEMICUBE_TESTS=ON >/dev/null; \
+	  cmake --build $$dir --parallel $(JOBS) --target golden_test; \
+	  echo "== $$compiler $$type"; $$dir/tests/golden_test --gtest_brief=1; done; done
+
 sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake -S . -B $(BUILD)/sanitize -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
 	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1"
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
 	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
-ci: test format-check ## what .ci/run runs
+core: ## the embeddable core alone: a C++20 compiler and GLM
+	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON
+	@cmake --build $(BUILD)/core --parallel $(JOBS)
+
+golden: deps ## rewrite tests/golden/hashes.txt (only for changes that are meant to change results)
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target golden_test
+	@HEMICUBE_WRITE_GOLDEN=1 $(BUILD)/tests/golden_test --gtest_brief=1
+
+ci: test format-check determinism ## what .ci/run runs
 
 clean: ## delete the build folder
 	@rm -rf $(BUILD)

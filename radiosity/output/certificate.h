@@ -1,0 +1,68 @@
+#pragma once
+
+#include "radiosity/form_factor/reciprocity.h"
+#include "raster/memory.h"
+
+#include <cstdint>
+
+namespace hemicube::radiosity {
+
+/// Smallest, mean and largest of one quantity over all patches.
+struct Range {
+  double min = 0, mean = 0, max = 0;
+};
+
+/// A fraction that should be small: its area-independent mean over the patches, its largest value
+/// and the lowest patch that has it.
+struct WorstFraction {
+  double mean = 0, max = 0;
+  std::uint32_t worst_patch = 0;
+};
+
+/// Power in W, one band.
+struct EnergyBalance {
+  double emitted = 0;   ///< sum A E, plus what space sends in
+  double absorbed = 0;  ///< sum A (1 - rho) H
+  double back_side = 0; ///< sum A b B: sent to back sides, lost
+  double escaped = 0;   ///< sum A s B: sent to space, lost
+  double imbalance =
+      0; ///< (emitted - absorbed - back_side - escaped) / emitted; 0 if nothing is emitted
+};
+
+/// The error report of a run; `result` of report.json. Bit-equal for every thread count,
+/// instruction set, compiler and optimisation level.
+struct Certificate {
+  std::uint64_t patches = 0;
+  std::uint64_t hemicubes = 0; ///< rendered, the rows of black patches included
+  std::uint64_t nonzeros = 0;  ///< entries of all rows rendered
+
+  Range row_sum_raw, row_sum; ///< before and after closure
+  WorstFraction space, back_side;
+
+  bool has_reciprocity = false; ///< all patches have a row, or those that reflect
+  Reciprocity reciprocity;
+
+  bool solved = false; ///< the fields below are filled
+  double residual = 0; ///< max|E + rho H - B| / max|B|
+  double estimated_error =
+      0; ///< bound on the relative error of B from the residual; infinity if none is known
+  std::uint64_t sweeps = 0;
+  bool converged = false;
+  bool rounding_floor = false;  ///< converged because rounding allows no smaller residual
+  Buffer<EnergyBalance> energy; ///< [band]; empty without the irradiance of black patches
+
+  std::uint64_t scene_hash = 0, form_factor_hash = 0, radiosity_hash = 0;
+  bool has_item_hash = false;
+  std::uint64_t item_hash = 0; ///< of all item buffers, with --hash-items only
+};
+
+/// How a run went; `run` of report.json. Differs from run to run.
+struct RunReport {
+  const char* isa = "";
+  std::uint32_t threads = 0;
+  double read_seconds = 0, mesh_seconds = 0, form_factor_seconds = 0, solve_seconds = 0,
+         write_seconds = 0;
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+} // namespace hemicube::radiosity

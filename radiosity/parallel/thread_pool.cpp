@@ -1,0 +1,103 @@
+#include "radiosity/parallel/thread_pool.h"
+
+#include <thread>
+
+namespace hemicube::radiosity {
+
+Status ThreadPool::init(std::uint32_t threads) {
+  HC_ASSERT(threads_.empty());
+  if (threads == 0)
+    threads = std::thread::hardware_concurrency();
+  for (std::size_t number = 1; number < threads; ++number) {
+    auto* worker = static_cast<Worker*>(detail::allocate(sizeof(Worker)));
+    if (worker == nullptr)
+      return Status::error(StatusCode::kOutOfMemory, "out of memory: a pool of ", threads,
+                           " threads");
+    *worker = {this, number, {}};
+    // The list grows first: a running thread must be known to the destructor.
+    Status status = threads_.push_back(worker);
+    if (!status.ok()) {
+      detail::release(worker, sizeof(Worker));
+      return status;
+    }
+    if (pthread_create(&worker->thread, nullptr, thread_main, worker) != 0) {
+      detail::release(worker, sizeof(Worker));
+      (void)threads_.resize(threads_.size() - 1);
+      return Status::error(StatusCode::kInvalidArgument, "only ", threads_.size() + 1, " of ",
+                           threads, " threads could be started: ask for fewer");
+    }
+  }
+  return {};
+}
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  start_.notify_all();
+  for (Worker* worker : threads_) {
+    pthread_join(worker->thread, nullptr);
+    detail::release(worker, sizeof(Worker));
+  }
+}
+
+Status ThreadPool::run(std::size_t block_count, Block block, void* context) noexcept {
+  {
+    const std::lock_guard lock(mutex_);
+    HC_ASSERT(block_ == nullptr);
+    block_ = block;
+    context_ = context;
+    block_count_ = block_count;
+    next_ = 0;
+    failed_ = false;
+    failure_ = Status();
+    busy_ = threads_.size();
+    ++generation_;
+  }
+  start_.notify_all();
+  work(0);
+  std::unique_lock lock(mutex_);
+  done_.wait(lock, [this] { return busy_ == 0; });
+  block_ = nullptr;
+  return failure_;
+}
+
+void ThreadPool::work(std::size_t worker) {
+  while (!failed_) {
+    const std::size_t index = next_.fetch_add(1);
+    if (index >= block_count_)
+      return;
+    Status status = block_(context_, index, worker);
+    if (status.ok())
+      continue;
+    // Blocks are claimed in order, so every block before a failed one has been claimed too and will
+    // still report: the lowest failure is the same for any number of threads.
+    const std::lock_guard lock(mutex_);
+    if (failure_.ok() || index < failed_block_) {
+      failure_ = status;
+      failed_block_ = index;
+    }
+    failed_ = true;
+  }
+}
+
+void* ThreadPool::thread_main(void* argument) {
+  const auto* worker = static_cast<const Worker*>(argument);
+  ThreadPool& pool = *worker->pool;
+  std::uint64_t seen = 0;
+  std::unique_lock lock(pool.mutex_);
+  while (true) {
+    pool.start_.wait(lock, [&] { return pool.stop_ || pool.generation_ != seen; });
+    if (pool.stop_)
+      return nullptr;
+    seen = pool.generation_;
+    lock.unlock();
+    pool.work(worker->number);
+    lock.lock();
+    if (--pool.busy_ == 0)
+      pool.done_.notify_one();
+  }
+}
+
+} // namespace hemicube::radiosity

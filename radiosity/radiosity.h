@@ -1,0 +1,76 @@
+#pragma once
+
+#include "radiosity/form_factor/matrix.h"
+#include "radiosity/mesh/patch_set.h"
+#include "radiosity/output/certificate.h"
+#include "radiosity/parallel/executor.h"
+#include "radiosity/scene/scene.h"
+#include "raster/simd/dispatch.h"
+
+namespace hemicube::radiosity {
+
+/// What the caller chooses. The defaults are those of the command line.
+struct Options {
+  std::uint32_t resolution = 256; ///< pixels along the hemicube's edge; even, 16..2048
+  double tolerance = 1e-6;        ///< on the estimated relative error of B
+  std::uint64_t max_sweeps = 1000000;
+  bool black_irradiance = true; ///< gather the irradiance of patches that reflect nothing
+  bool hash_items = false;      ///< hash every item buffer (slow)
+  const raster::Kernels* kernels = nullptr; ///< instruction set; null = the best this machine has
+};
+
+/// Called from time to time, from any worker, never twice at once.
+class Progress {
+public:
+  /// @param done, total  rows finished, rows in all
+  /// @return false to stop the run: it then ends with kCancelled
+  virtual bool rows(std::uint64_t done, std::uint64_t total) noexcept = 0;
+  /// @param error  the estimated relative error after `sweeps` sweeps
+  virtual bool sweeps(std::uint64_t sweeps, double error) noexcept = 0;
+
+protected:
+  ~Progress() = default;
+};
+
+/// Light on every patch. Arrays of doubles, [patch][band] unless said otherwise.
+struct Solution {
+  std::uint32_t band_count = 0;
+  Buffer<double> reflectance; ///< 0..1
+  Buffer<double> exitance;    ///< W/m^2
+  Buffer<double> irradiance;  ///< H, W/m^2; NaN for black patches with black_irradiance off
+  Buffer<double> radiosity;   ///< B, W/m^2
+  Buffer<double> row_sum;     ///< [patch] sum of the row of form factors
+  Buffer<double> space;       ///< [patch] fraction of the hemisphere that sees space
+  Buffer<double> back_side;   ///< [patch] fraction that sees back sides
+};
+
+/// Computes form factors and light on a mesh of a scene.
+/// @param scene     materials, bands and space exitance; its geometry is not read
+/// @param patches   the mesh (mesh/build_patches.h)
+/// @param progress  may be null
+/// @return kInvalidArgument (bad option), kSingular (no solution), kNotConverged (solution and
+///         certificate are filled all the same), kOutOfMemory, kCancelled
+/// Deterministic: the same bits for any executor and any kernels.
+Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& options,
+                   Executor& executor, Progress* progress, Solution* solution,
+                   Certificate* certificate);
+
+/// Computes rows of form factors: of the listed patches, or of all if `rows` is empty.
+/// @param matrix  row k belongs to patch rows[k]
+Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32_t> rows,
+                            const Options& options, Executor& executor, Progress* progress,
+                            FormFactorMatrix* matrix, Certificate* certificate);
+
+/// A place to compute a row at, with the direction it looks to.
+struct Receiver {
+  Vec3 position; ///< metres, as the patches
+  Vec3 normal;   ///< any length > 0
+};
+
+/// Computes one row per point: the fraction of the light leaving a small receiver there that
+/// arrives at each patch. Nothing is skipped but polygons edge-on to the receiver.
+Status compute_point_form_factors(const PatchSet& patches, std::span<const Receiver> points,
+                                  const Options& options, Executor& executor, Progress* progress,
+                                  FormFactorMatrix* matrix, Certificate* certificate);
+
+} // namespace hemicube::radiosity

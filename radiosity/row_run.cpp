@@ -1,0 +1,37 @@
+#include "radiosity/row_run.h"
+
+#include "radiosity/hemicube/five_views.h"
+
+namespace hemicube::radiosity {
+
+Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64_t total,
+                    Executor& executor, Progress* progress) {
+  HC_TRY(check_float_environment());
+  executor_ = &executor;
+  progress_ = progress;
+  total_ = total;
+  done_ = 0;
+  const raster::Kernels& kernels =
+      options.kernels != nullptr ? *options.kernels : raster::best_kernels();
+  HC_TRY(setup_.init(polygons_of(patches), options.resolution, kernels, options.hash_items));
+  return builders_.init(executor.worker_count());
+}
+
+Status RowRun::count_row() {
+  const std::uint64_t done = ++done_;
+  if (progress_ == nullptr)
+    return {};
+  // A worker that finds another one reporting has better things to do than to wait; but the last
+  // row is always reported.
+  std::unique_lock lock(progress_mutex_, std::defer_lock);
+  if (done == total_)
+    lock.lock();
+  else if (!lock.try_lock())
+    return {};
+  if (!progress_->rows(done, total_))
+    return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_,
+                         " hemicubes");
+  return {};
+}
+
+} // namespace hemicube::radiosity

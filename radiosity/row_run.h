@@ -1,0 +1,63 @@
+#pragma once
+
+#include "radiosity/form_factor/row_builder.h"
+#include "radiosity/radiosity.h"
+#include "raster/fp_environment.h"
+
+#include <atomic>
+#include <mutex>
+
+namespace hemicube::radiosity {
+
+/// Builds rows of one scene in parallel: each by one worker, in fixed blocks, so that neither the
+/// rows nor their order in a block depends on the number of workers.
+class RowRun {
+public:
+  /// @param total     rows that will be built in all, for `progress`
+  /// @param progress  may be null
+  Status init(const PatchSet& patches, const Options& options, std::uint64_t total,
+              Executor& executor, Progress* progress);
+
+  /// Calls take(index, row, builder) for the indices 0 .. count-1; those of one block of
+  /// FormFactorMatrix::kBlockRows come in ascending order from one worker.
+  /// @param view_of  bool(index, raster::View*); false if no row is wanted there: take then gets an
+  ///                 empty row and a null builder
+  template <typename ViewOf, typename Take>
+  Status build(std::uint64_t count, ViewOf view_of, Take take) {
+    constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
+    return executor_->for_each(
+        (count + kRows - 1) / kRows, [&](std::size_t block, std::size_t worker) {
+          const FloatEnvironment environment;
+          RowBuilder& builder = builders_[worker];
+          if (!builder.ready())
+            HC_TRY(builder.init(setup_));
+          const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
+          for (std::uint64_t index = block * kRows; index < end; ++index) {
+            raster::View view;
+            if (!view_of(index, &view)) {
+              HC_TRY(take(index, RowView(), nullptr));
+              continue;
+            }
+            const RowView row = builder.build(view);
+            HC_TRY(take(index, row, &builder));
+            HC_TRY(count_row());
+          }
+          return Status();
+        });
+  }
+
+  std::uint64_t done() const noexcept { return done_; }
+
+private:
+  Status count_row();
+
+  RowSetup setup_;
+  FixedArray<RowBuilder> builders_;
+  Executor* executor_ = nullptr;
+  Progress* progress_ = nullptr;
+  std::uint64_t total_ = 0;
+  std::atomic<std::uint64_t> done_{0};
+  std::mutex progress_mutex_;
+};
+
+} // namespace hemicube::radiosity

@@ -1,0 +1,187 @@
+// Rows of one hemicube against Lambert's exact point-to-polygon form factor, case by case: near,
+// far, thin, grazing, straddling the horizon, blocked.
+
+#include "radiosity/hemicube/five_views.h"
+#include "radiosity/parallel/thread_pool.h"
+#include "tests/support/lambert.h"
+#include "tests/support/one_point.h"
+#include "tests/support/reference.h"
+#include "tests/support/solved.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace hemicube::test {
+namespace {
+
+/// Values are floats with one scale a row ...
+constexpr double kStorage = 1e-7;
+/// ... made of counts of 2^-48.
+constexpr double kCount = 1e-14;
+
+std::vector<nlohmann::json> cases(bool points) {
+  std::vector<nlohmann::json> selected;
+  const nlohmann::json all = reference_json("formfactors.json");
+  for (const nlohmann::json& one : all["cases"])
+    if ((one["P1"].size() < 3) == points)
+      selected.push_back(one);
+  return selected;
+}
+
+/// A case as patches: P1, P2, then each blocker once per side.
+struct CasePatches {
+  PatchSet patches;
+  std::vector<std::vector<Vec3>> blockers;
+
+  explicit CasePatches(const nlohmann::json& one) {
+    SceneBuilder builder;
+    const std::uint32_t grey = builder.material("grey", 0.5, 1);
+    builder.face(grey, points_of(one["P1"]));
+    builder.face(grey, points_of(one["P2"]));
+    if (one.contains("blockers"))
+      for (const auto& blocker : one["blockers"]) {
+        const auto corners = points_of(blocker.is_object() ? blocker["vertices"] : blocker);
+        builder.face(grey, corners);
+        builder.face(grey, std::vector<Vec3>(corners.rbegin(), corners.rend()));
+        blockers.push_back(corners);
+      }
+    patches = patches_of(builder.finish());
+  }
+};
+
+/// P2 of a case with a point, wound so that the point sees its front. One case of the data
+/// (pt_general_tri) shows the point the back of P2; its value is that of the triangle turned over.
+std::vector<Vec3> facing_polygon(const nlohmann::json& one) {
+  auto polygon = points_of(one["P2"]);
+  if (lambert_form_factor(point_of(one["P1"][0]), point_of(one["normal1"]), polygon) == 0)
+    std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+double entry(const radiosity::RowView& row, std::uint32_t column) {
+  for (std::size_t k = 0; k < row.columns.size(); ++k)
+    if (row.columns[k] == column)
+      return row.scale * static_cast<double>(row.values[k]);
+  return 0;
+}
+
+/// The bound for a polygon and whatever stands before it.
+double bound_of(const raster::View& view, std::span<const Vec3> polygon,
+                std::span<const std::vector<Vec3>> blockers, std::uint32_t resolution) {
+  double bound = aliasing_bound(view, polygon, resolution);
+  for (const auto& blocker : blockers)
+    bound += aliasing_bound(view, blocker, resolution);
+  return bound;
+}
+
+// The formula of the tests themselves, against the 20-digit references.
+TEST(Lambert, FormulaAgreesWithTheReference) {
+  for (const nlohmann::json& one : cases(true)) {
+    const double exact =
+        lambert_form_factor(point_of(one["P1"][0]), point_of(one["normal1"]), facing_polygon(one));
+    const double expected = one["F12"];
+    EXPECT_NEAR(exact, expected, 1e-12 * expected) << one["name"];
+  }
+  EXPECT_LE(largest_aliasing_bound(256), 3.5 / 256);
+}
+
+// Catches: rows at points in a wrong frame; everything the row of a patch can have wrong.
+TEST(PointFormFactors, AreThoseOfTheReferenceUpToPixels) {
+  for (const nlohmann::json& one : cases(true)) {
+    const std::string name = one["name"];
+    const radiosity::Receiver receiver{point_of(one["P1"][0]), point_of(one["normal1"])};
+    const std::vector<Vec3> front = facing_polygon(one);
+    const std::vector<Vec3> back(front.rbegin(), front.rend());
+    SceneBuilder facing, averted;
+    facing.face(facing.material("grey", 0.5, 1), front);
+    averted.face(averted.material("grey", 0.5, 1), back);
+    const PatchSet patches = patches_of(facing.finish()), turned = patches_of(averted.finish());
+    for (const std::uint32_t resolution : {64u, 256u, 1024u}) {
+      radiosity::Options options;
+      options.resolution = resolution;
+      radiosity::FormFactorMatrix matrix, behind;
+      radiosity::Certificate certificate;
+      radiosity::SerialExecutor serial;
+      require(radiosity::compute_point_form_factors(patches, {&receiver, 1}, options, serial,
+                                                    nullptr, &matrix, &certificate));
+      require(radiosity::compute_point_form_factors(turned, {&receiver, 1}, options, serial,
+                                                    nullptr, &behind, &certificate));
+      const double actual = entry(matrix.row(0), 0), expected = one["F12"];
+      const double bound = aliasing_bound(
+          radiosity::hemicube_view(receiver.position, receiver.normal), front, resolution);
+      EXPECT_NEAR(actual, expected, bound + kStorage * expected + kCount)
+          << name << " at " << resolution;
+      EXPECT_NEAR(matrix.row(0).space, 1 - actual, 1e-15);
+      // The same polygon turned over receives nothing, and blocks as much.
+      EXPECT_EQ(entry(behind.row(0), 0), 0.0) << name;
+      EXPECT_NEAR(behind.row(0).back_side, actual, 1e-7 * actual) << name;
+      std::printf("%s at %u: F %.9g, exact %.9g, error %.2e, bound %.2e\n", name.c_str(),
+                  resolution, actual, expected, actual - expected, bound);
+    }
+  }
+}
+
+// From the centre of P1 to P2 and back, past the blockers.
+// Catches: clipping at the horizon, near planes, far and thin polygons drawn too large, wrong
+// winners.
+TEST(PairFormFactors, AreThePointFormFactorsUpToPixels) {
+  for (const std::uint32_t resolution : {64u, 256u, 1024u}) {
+    double squares = 0, largest = 0;
+    int count = 0;
+    for (const nlohmann::json& one : cases(false)) {
+      const CasePatches made(one);
+      radiosity::Options options;
+      options.resolution = resolution;
+      FormFactors factors;
+      compute_all(made.patches, options, 1, &factors);
+      for (const std::uint32_t from : {0u, 1u}) {
+        const std::uint32_t to = 1 - from;
+        const auto polygon = corners_of(made.patches, to);
+        const Vec3 centre = made.patches.centre[from], normal = made.patches.normal[from];
+        const double actual = entry(factors.matrix.row(from), to);
+        const double exact = blocked_form_factor(centre, normal, polygon, made.blockers);
+        const double bound = bound_of(radiosity::hemicube_view(made.patches, from), polygon,
+                                      made.blockers, resolution);
+        EXPECT_NEAR(actual, exact, bound + kStorage * exact + kCount)
+            << one["name"] << ", from P" << from + 1 << " at " << resolution;
+        squares += (actual - exact) * (actual - exact);
+        largest = std::max(largest, std::fabs(actual - exact));
+        ++count;
+      }
+    }
+    std::printf("pairs at %u: RMS error %.2e, largest %.2e of %d\n", resolution,
+                std::sqrt(squares / count), largest, count);
+  }
+}
+
+// Catches: leaks at a blocker's rim, backs that radiate, coplanar patches that see each other.
+TEST(PairFormFactors, ZeroIsExactlyZero) {
+  for (const char* name : {"occ_total", "zero_coplanar", "zero_backfacing"}) {
+    const CasePatches made(reference_case("formfactors.json", name));
+    for (const std::uint32_t resolution : {16u, 64u, 200u, 256u, 1024u}) {
+      radiosity::Options options;
+      options.resolution = resolution;
+      FormFactors factors;
+      compute_all(made.patches, options, 1, &factors);
+      EXPECT_EQ(entry(factors.matrix.row(0), 1), 0.0) << name << " at " << resolution;
+    }
+  }
+}
+
+// A unit square at distance 1 over another, seen from its centre: the largest case of aliasing by
+// the hemicube's orientation, since all four edges of the image may run along pixel rows. Catches:
+// a frame aligned with, or turned by a simple fraction against, the edges of rooms.
+TEST(PairFormFactors, OrientationAliasingIsSmall) {
+  const CasePatches made(reference_case("formfactors.json", "par_1x1_gap1"));
+  radiosity::Options options;
+  options.resolution = 512;
+  FormFactors factors;
+  compute_all(made.patches, options, 1, &factors);
+  EXPECT_NEAR(entry(factors.matrix.row(0), 1), 0.239456, 2.5e-4);
+}
+
+} // namespace
+} // namespace hemicube::test

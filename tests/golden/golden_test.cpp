@@ -1,0 +1,107 @@
+// The hashes of hashes.txt, for every instruction set of this machine and several thread counts. A
+// hash says "unchanged"; that the results are right is shown by the tests of tests/analytic on
+// these scenes.
+#include "radiosity/mesh/build_patches.h"
+#include "radiosity/parallel/thread_pool.h"
+#include "radiosity/radiosity.h"
+#include "radiosity/scene/read_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace hemicube::radiosity {
+namespace {
+
+const std::string kFile = HC_SOURCE_DIR "/tests/golden/hashes.txt";
+
+struct Golden {
+  std::string scene; ///< below the checkout
+  std::uint32_t resolution = 0;
+  std::string items, form_factors, radiosity;
+};
+
+std::vector<Golden> read_goldens() {
+  std::vector<Golden> goldens;
+  std::ifstream in(kFile);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#')
+      continue;
+    std::istringstream words(line);
+    Golden golden;
+    words >> golden.scene >> golden.resolution >> golden.items >> golden.form_factors >>
+        golden.radiosity;
+    goldens.push_back(golden);
+  }
+  return goldens;
+}
+
+std::string hex(std::uint64_t value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, value);
+  return text;
+}
+
+Golden compute(const Golden& golden, const raster::Kernels& kernels, std::uint32_t threads) {
+  Golden result = golden;
+  Scene scene;
+  ReadReport read;
+  PatchSet patches;
+  MeshReport mesh;
+  const std::string path = HC_SOURCE_DIR "/" + golden.scene;
+  for (const Status& status :
+       {read_scene(path, &scene, &read), build_patches(scene, &patches, &mesh)})
+    EXPECT_TRUE(status.ok()) << status.message();
+  ThreadPool pool;
+  EXPECT_TRUE(pool.init(threads).ok());
+  Options options;
+  options.resolution = golden.resolution;
+  options.hash_items = true;
+  options.kernels = &kernels;
+  Solution solution;
+  Certificate certificate;
+  const Status status =
+      solve_scene(scene, patches, options, pool, nullptr, &solution, &certificate);
+  EXPECT_TRUE(status.ok()) << status.message();
+  result.items = hex(certificate.item_hash);
+  result.form_factors = hex(certificate.form_factor_hash);
+  result.radiosity = hex(certificate.radiosity_hash);
+  return result;
+}
+
+std::string text(const Golden& golden) {
+  return golden.scene + " " + std::to_string(golden.resolution) + " " + golden.items + " " +
+         golden.form_factors + " " + golden.radiosity;
+}
+
+TEST(Golden, HashesAreThoseOnFile) {
+  const std::vector<Golden> goldens = read_goldens();
+  ASSERT_FALSE(goldens.empty()) << kFile << " has no line";
+  if (std::getenv("HEMICUBE_WRITE_GOLDEN") != nullptr) {
+    std::string lines =
+        "# scene resolution items form_factors radiosity; rewritten by `make golden`\n";
+    for (const Golden& golden : goldens)
+      lines += text(compute(golden, raster::best_kernels(), 1)) + "\n";
+    std::ofstream(kFile) << lines;
+    return;
+  }
+  for (const Golden& golden : goldens)
+    for (const char* isa : {"scalar", "avx2"})
+      for (const std::uint32_t threads : {1u, 2u, 3u, 7u}) {
+        const raster::Kernels* kernels = raster::kernels_by_name(isa);
+        const bool once = std::string(isa) == "scalar" && threads != 2; // slow: once is enough
+        if (kernels == nullptr || once)
+          continue;
+        EXPECT_EQ(text(compute(golden, *kernels, threads)), text(golden))
+            << "actual, expected; isa " << isa << ", " << threads << " threads";
+      }
+}
+
+} // namespace
+} // namespace hemicube::radiosity

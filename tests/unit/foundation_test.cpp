@@ -1,0 +1,185 @@
+#include "radiosity/form_factor/matrix.h"
+#include "radiosity/form_factor/reciprocity.h"
+#include "radiosity/form_factor/row_accumulator.h"
+#include "raster/fp_environment.h"
+#include "raster/hash.h"
+#include "raster/memory.h"
+#include "raster/simd/dispatch.h"
+#include "raster/span_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace hemicube {
+namespace {
+
+TEST(Status, MessagesJoinTextAndNumbers) {
+  const Status status =
+      Status::error(StatusCode::kBadScene, "a.obj", ":", 12, ": bad ", 0.1, "f ", -3);
+  EXPECT_EQ(status.message(), "a.obj:12: bad 0.1f -3");
+  EXPECT_EQ(status.code(), StatusCode::kBadScene);
+}
+
+TEST(Status, LongMessagesAreCut) {
+  const std::string text(2000, 'x');
+  EXPECT_EQ(Status::error(StatusCode::kIo, text).message().size(), Status::kCapacity - 1);
+}
+
+TEST(Buffer, OutOfMemoryIsAStatusAndKeepsTheContent) {
+  Buffer<int> buffer;
+  ASSERT_TRUE(buffer.push_back(42).ok());
+  EXPECT_EQ(buffer.reserve(std::size_t{1} << 62).code(), StatusCode::kOutOfMemory);
+  EXPECT_EQ(buffer.size(), 1u);
+  EXPECT_EQ(buffer[0], 42);
+}
+
+TEST(Buffer, ShrinksToItsContent) {
+  Buffer<int> buffer;
+  for (int i = 0; i < 17; ++i)
+    ASSERT_TRUE(buffer.push_back(i).ok());
+  ASSERT_TRUE(buffer.shrink_to_fit().ok());
+  for (int i = 0; i < 17; ++i)
+    EXPECT_EQ(buffer[static_cast<std::size_t>(i)], i);
+  buffer.clear();
+  ASSERT_TRUE(buffer.shrink_to_fit().ok());
+  EXPECT_EQ(buffer.data(), nullptr);
+}
+
+TEST(Buffer, ElementMayBeItsOwnSource) {
+  Buffer<int> buffer;
+  for (int i = 0; i < 100; ++i)
+    ASSERT_TRUE(buffer.push_back(i == 0 ? 7 : buffer[0]).ok());
+  EXPECT_EQ(buffer.back(), 7);
+}
+
+TEST(FloatEnvironment, RestoresRoundingAndDetectsHonestArithmetic) {
+  EXPECT_TRUE(check_float_environment().ok());
+  std::fesetround(FE_UPWARD);
+  {
+    const FloatEnvironment environment;
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+  }
+  EXPECT_EQ(std::fegetround(), FE_UPWARD);
+  std::fesetround(FE_TONEAREST);
+}
+
+TEST(Hash, DependsOnOrderAndEveryBit) {
+  Hash a, b, c;
+  a.add(std::uint64_t{1});
+  a.add(std::uint64_t{2});
+  b.add(std::uint64_t{2});
+  b.add(std::uint64_t{1});
+  c.add(std::uint64_t{1});
+  c.add(std::uint64_t{2} ^ (std::uint64_t{1} << 63));
+  EXPECT_NE(a.value(), b.value());
+  EXPECT_NE(a.value(), c.value());
+}
+
+TEST(Dispatch, FindsKernelsByName) {
+  ASSERT_NE(raster::kernels_by_name("scalar"), nullptr);
+  EXPECT_STREQ(raster::kernels_by_name("scalar")->name, "scalar");
+  EXPECT_EQ(raster::kernels_by_name("doesnotexist"), nullptr);
+}
+
+TEST(Dispatch, EnvironmentForcesKernels) {
+  ASSERT_EQ(setenv("HEMICUBE_ISA", "scalar", 1), 0);
+  EXPECT_STREQ(raster::best_kernels().name, "scalar");
+  unsetenv("HEMICUBE_ISA");
+}
+
+TEST(RowAccumulator, SumsLikeAMapThroughCollisions) {
+  radiosity::RowAccumulator accumulator;
+  ASSERT_TRUE(accumulator.init(100).ok());
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    std::map<std::uint32_t, std::uint64_t> expected;
+    for (int k = 0; k < 1000; ++k) {
+      const auto id = static_cast<std::uint32_t>(random() % 100 * 256); // all collide
+      expected[id] += id + 1;
+      accumulator.add(id, id + 1);
+    }
+    const auto sorted = accumulator.sorted();
+    ASSERT_EQ(sorted.size(), expected.size());
+    std::size_t at = 0;
+    for (const auto& [id, weight] : expected) {
+      EXPECT_EQ(sorted[at].id, id);
+      EXPECT_EQ(sorted[at].weight, weight);
+      ++at;
+    }
+    accumulator.clear();
+  }
+}
+
+TEST(FormFactorMatrix, GivesRowsBack) {
+  radiosity::FormFactorMatrix matrix;
+  ASSERT_TRUE(matrix.init(70, 5).ok());
+  for (std::uint32_t i = 0; i < 70; ++i) {
+    const std::vector<std::uint32_t> columns = {i % 5};
+    const std::vector<float> values = {static_cast<float>(i)};
+    radiosity::RowView row;
+    if (i % 3 != 0) {
+      row.columns = columns;
+      row.values = values;
+      row.scale = 0.5;
+      row.space = i;
+    }
+    ASSERT_TRUE(matrix.append_row(i / radiosity::FormFactorMatrix::kBlockRows, row).ok());
+  }
+  EXPECT_EQ(matrix.nonzero_count(), 70u - 24u);
+  for (std::uint32_t i = 0; i < 70; ++i) {
+    const radiosity::RowView row = matrix.row(i);
+    ASSERT_EQ(row.columns.size(), i % 3 != 0 ? 1u : 0u);
+    EXPECT_EQ(radiosity::row_sum(row), i % 3 != 0 ? 0.5 * i : 0);
+  }
+}
+
+TEST(Reciprocity, MeasuresEveryPairOnce) {
+  // Areas 1, 2, 4. Pair 0-1 is reciprocal, 0-2 is off by 0.1, 1-2 is seen from 2 alone, as 0.05.
+  const double area[] = {1, 2, 4};
+  const double f[3][3] = {{0, 0.5, 0.5}, {0.25, 0, 0}, {0.1, 0.0125, 0}};
+  radiosity::FormFactorMatrix matrix;
+  ASSERT_TRUE(matrix.init(3, 3).ok());
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    std::vector<std::uint32_t> columns;
+    std::vector<float> values;
+    for (std::uint32_t j = 0; j < 3; ++j)
+      if (f[i][j] > 0) {
+        columns.push_back(j);
+        values.push_back(static_cast<float>(f[i][j]));
+      }
+    radiosity::RowView row;
+    row.columns = columns;
+    row.values = values;
+    ASSERT_TRUE(matrix.append_row(0, row).ok());
+  }
+  radiosity::SerialExecutor executor;
+  radiosity::Reciprocity reciprocity;
+  ASSERT_TRUE(radiosity::measure_reciprocity(matrix, area, executor, &reciprocity).ok());
+  EXPECT_NEAR(reciprocity.max, 0.1, 1e-7);
+  const double off = 0.1 * 0.1 + 0.05 * 0.05, all = 0.5 * 0.5 + 0.5 * 0.5 + 0.05 * 0.05;
+  EXPECT_NEAR(reciprocity.rms, std::sqrt(off / all), 1e-7);
+}
+
+TEST(RowDot, OrderIsTheDocumentedOne) {
+  // 2^53 + 1 is lost unless the ones meet first: eight partial sums, each its own lane.
+  std::vector<std::uint32_t> columns(17);
+  std::vector<float> values(17, 1.0f);
+  std::vector<double> x(17, 1);
+  for (std::uint32_t k = 0; k < 17; ++k)
+    columns[k] = k;
+  x[0] = 0x1p53;
+  radiosity::RowView row;
+  row.columns = columns;
+  row.values = values;
+  // Lane 0: 2^53 + 1 + 1 = 2^53 (ties to even); lanes 1..7: 2 each; the tree adds 14.
+  EXPECT_EQ(radiosity::row_dot(row, x.data()), 0x1p53 + 14);
+}
+
+} // namespace
+} // namespace hemicube
