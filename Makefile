@@ -21,9 +21,9 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check test format format-check determinism sanitize core golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize core golden clean ci
 
-all: ## build (installs nothing)
+all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
 	  echo "missing packages; install them with 'make deps', or:"; \
 	  echo "  $(SUDO) $(APT_INSTALL) $$missing"; exit 1; fi
@@ -38,6 +38,10 @@ deps: ## install what building and testing needs (apt-get; sudo where not root)
 
 deps-check: ## install what the format and determinism checks need besides
 	$(call install,$(CHECK_PACKAGES))
+
+demo: deps ## install, build, and light the Cornell box into build/demo/cornell
+	@$(MAKE) --no-print-directory all
+	@$(BUILD)/hemicube solve scenes/cornell.json -o $(BUILD)/demo/cornell
 
 test: deps ## install, build, and run all tests (T=regex picks some)
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON -DHEMICUBE_WERROR=ON

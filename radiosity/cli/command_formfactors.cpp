@@ -1,0 +1,80 @@
+#include "radiosity/cli/commands.h"
+#include "radiosity/cli/console.h"
+#include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/points_file.h"
+#include "radiosity/cli/session.h"
+#include "radiosity/cli/stopwatch.h"
+#include "radiosity/output/matrix_market.h"
+#include "radiosity/scene/text_cursor.h"
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+/// @param rows  receives the selected patches; empty = all
+Status select_rows(const RowSelection& selection, std::uint32_t patch_count,
+                   std::vector<std::uint32_t>* rows) {
+  if (selection.is_all())
+    return {};
+  *rows = selection.listed;
+  if (!rows->empty() && rows->back() >= patch_count)
+    return Status::error(StatusCode::kInvalidArgument, "--rows: patch ", rows->back(),
+                         " does not exist: there are ", patch_count, " patches, counted from 0");
+  if (rows->empty())
+    for (std::uint64_t row = 0; row < patch_count; row += selection.every)
+      rows->push_back(static_cast<std::uint32_t>(row));
+  return {};
+}
+
+void print_summary(const Session& session, const Certificate& certificate,
+                   const std::string& matrix_path) {
+  const Certificate& c = certificate;
+  print(concat(counted(c.patches, "patch", "patches"), ", ", session.hemicubes_text(c), ", ",
+               counted(c.nonzeros, "form factor", "form factors"), ", row sums ",
+               rounded(c.row_sum.min), "..", rounded(c.row_sum.max), losses_text(c), "\n"));
+  print(concat("form factors ", hex(c.form_factor_hash)));
+  if (!matrix_path.empty())
+    print(concat("; files ", matrix_path, " and ", rows_file_name(matrix_path)));
+  print("\n");
+}
+
+} // namespace
+
+Status run_formfactors(const CommandLine& line) {
+  if (!line.output.empty() && !has_extension(line.output, ".mtx"))
+    return Status::error(StatusCode::kInvalidArgument, "-o ", line.output,
+                         ": must end in .mtx, for Matrix Market");
+  Session session(line);
+  HC_TRY(session.begin(line.input));
+  std::vector<Receiver> points;
+  std::vector<std::uint32_t> rows;
+  const bool of_points = !line.points.empty();
+  if (of_points)
+    HC_TRY(read_points(line.points, &points));
+  else
+    HC_TRY(select_rows(line.rows, session.loaded.patches.patch_count(), &rows));
+  FileSet files;
+  std::string name;
+  if (!line.output.empty())
+    HC_TRY(files.begin_file(line.output, &name));
+
+  FormFactorMatrix matrix;
+  Certificate certificate;
+  HC_TRY(of_points ? session.point_form_factors(points, &matrix, &certificate)
+                   : session.form_factors(rows, &matrix, &certificate));
+
+  if (!line.output.empty()) {
+    Stopwatch watch;
+    HC_TRY(of_points ? write_point_matrix_market(&files, name, matrix)
+                     : write_matrix_market(&files, name, matrix, session.loaded.patches, rows));
+    HC_TRY(check_interrupt());
+    HC_TRY(files.commit());
+    session.run.write_seconds = watch.lap();
+  }
+  if (line.json)
+    print(session.report_text(certificate));
+  else if (!line.quiet)
+    print_summary(session, certificate, line.output);
+  return {};
+}
+
+} // namespace hemicube::radiosity::cli

@@ -1,0 +1,67 @@
+#include "radiosity/cli/commands.h"
+#include "radiosity/cli/console.h"
+#include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/session.h"
+#include "radiosity/output/solution_files.h"
+
+#include <cmath>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+void print_summary(const Session& session, const Certificate& certificate) {
+  const Certificate& c = certificate;
+  print(concat(counted(c.patches, "patch", "patches"), ", ", session.hemicubes_text(c), ", ",
+               counted(c.sweeps, "sweep", "sweeps"), ", residual ", rounded(c.residual),
+               ", estimated error ",
+               std::isfinite(c.estimated_error) ? rounded(c.estimated_error) : "unknown",
+               c.rounding_floor ? " (rounding allows no less)" : "", losses_text(c), "\n"));
+  print(concat("form factors ", hex(c.form_factor_hash), ", radiosity ", hex(c.radiosity_hash)));
+  if (!session.line.output.empty())
+    print(concat("; files in ", session.line.output));
+  print("\n");
+}
+
+/// Writes all files of a solution. @param report  receives the text of report.json
+Status write_files(Session* session, const Solution& solution, const Certificate& certificate,
+                   const Camera& camera, FileSet* files, std::string* report) {
+  const CommandLine& line = session->line;
+  const LoadedScene& loaded = session->loaded;
+  std::string picture_note;
+  HC_TRY(check_interrupt());
+  HC_TRY(write_solution(files,
+                        {loaded.patches, solution, session->report_parts(certificate), camera,
+                         line.exposure, *line.options.kernels},
+                        report, &picture_note));
+  if (!picture_note.empty() && !line.quiet)
+    print_message(picture_note);
+  return {};
+}
+
+} // namespace
+
+Status run_solve(const CommandLine& line) {
+  Session session(line);
+  HC_TRY(session.begin(line.input));
+  FileSet files;
+  Camera camera;
+  if (!line.output.empty()) {
+    HC_TRY(session.choose_camera(&camera));
+    HC_TRY(begin_solution(&files, line.output));
+  }
+  Solution solution;
+  Certificate certificate;
+  const Status solved = session.solve(&solution, &certificate);
+  if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
+    return solved;
+  std::string report = session.report_text(certificate);
+  if (!line.output.empty())
+    HC_TRY(write_files(&session, solution, certificate, camera, &files, &report));
+  if (line.json)
+    print(report);
+  else if (!line.quiet)
+    print_summary(session, certificate);
+  return solved;
+}
+
+} // namespace hemicube::radiosity::cli

@@ -1,0 +1,54 @@
+#include "radiosity/cli/console.h"
+
+#include <cstdio>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+bool output_failed = false;
+
+} // namespace
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
+    output_failed = true;
+}
+
+bool flush_output() {
+  if (std::fflush(stdout) != 0)
+    output_failed = true;
+  return !output_failed;
+}
+
+void print_message(std::string_view message) {
+  std::string line = "hemicube: ";
+  for (const char c : message)
+    line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  line += '\n';
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+std::string rounded(double value) {
+  // Thousands in full: 6460, not 6.46e+03.
+  const bool is_large = value >= 1000 && value < 1e9;
+  char digits[40];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value,
+                                 is_large ? std::chars_format::fixed : std::chars_format::general,
+                                 is_large ? 0 : 3)
+                       .ptr;
+  return {digits, end};
+}
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  return concat(count, " ", count == 1 ? one : many);
+}
+
+std::string memory_text(double bytes) {
+  const char* const units[] = {" bytes", " kB", " MB", " GB", " TB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < std::size(units); ++unit)
+    bytes /= 1000;
+  return rounded(bytes) + units[unit];
+}
+
+} // namespace hemicube::radiosity::cli

@@ -1,0 +1,70 @@
+#include "radiosity/cli/load_scene.h"
+
+#include "radiosity/cli/console.h"
+#include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/stopwatch.h"
+#include "radiosity/mesh/build_patches.h"
+#include "radiosity/mesh/openmesh_subdivide.h"
+#include "radiosity/scene/read_scene.h"
+
+#include <algorithm>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+Status mesh(double max_edge, LoadedScene* loaded) {
+  const Scene& scene = loaded->scene;
+  PatchSet* patches = &loaded->patches;
+  HC_TRY(build_patches(scene, patches, &loaded->mesh));
+  HC_TRY(check_interrupt());
+  const bool scene_limits = std::any_of(scene.face_max_edge.begin(), scene.face_max_edge.end(),
+                                        [](double limit) { return limit != 0; });
+  if (max_edge != 0 || scene_limits) {
+    std::vector<double> limits(patches->patch_count(), max_edge);
+    if (max_edge == 0)
+      for (std::uint32_t i = 0; i < patches->patch_count(); ++i)
+        limits[i] = scene.face_max_edge[patches->face[i]];
+    PatchSet coarse = std::move(*patches);
+    *patches = {};
+    HC_TRY(subdivide(coarse, limits, patches, &loaded->mesh));
+  }
+  HC_TRY(add_back_sides(scene, patches));
+  return check_interrupt();
+}
+
+} // namespace
+
+Status load_scene(const std::string& path, double max_edge, LoadedScene* loaded, RunReport* run) {
+  Stopwatch watch;
+  HC_TRY(read_scene(path, &loaded->scene, &loaded->read));
+  HC_TRY(check_interrupt());
+  run->read_seconds = watch.lap();
+  const Status meshed = mesh(max_edge, loaded);
+  if (meshed.code() == StatusCode::kBadScene)
+    return Status::error(StatusCode::kBadScene, path, ": ", meshed.message());
+  HC_TRY(meshed);
+  run->mesh_seconds = watch.lap();
+  return {};
+}
+
+std::vector<std::string> warnings(const LoadedScene& loaded) {
+  std::vector<std::string> lines;
+  for (const auto& [reason, count] : loaded.read.skipped)
+    lines.push_back(concat("skipped ", count, " x ", reason));
+  const MeshReport& mesh = loaded.mesh;
+  const auto faces = [&lines](std::uint64_t count, const char* what) {
+    if (count != 0)
+      lines.push_back(concat(counted(count, "face ", "faces "), what));
+  };
+  faces(loaded.read.faces_without_material, "without a material: grey, reflectance 0.5");
+  faces(mesh.dropped_repeated_index, "dropped: a vertex is named twice");
+  faces(mesh.dropped_zero_area, "dropped: no area");
+  faces(mesh.triangulated_concave, "cut into triangles: not convex");
+  faces(mesh.triangulated_warped, "cut into triangles: not planar");
+  faces(mesh.duplicate_faces, "with the vertices of an earlier face: kept");
+  faces(mesh.non_manifold_faces,
+        "on an edge that more than two share or with opposite orientation: kept");
+  return lines;
+}
+
+} // namespace hemicube::radiosity::cli

@@ -1,0 +1,79 @@
+#include "radiosity/cli/commands.h"
+#include "radiosity/cli/console.h"
+#include "radiosity/cli/interrupt.h"
+
+#include <exception>
+#include <new>
+
+namespace {
+
+using namespace hemicube;
+using namespace hemicube::radiosity::cli;
+
+enum ExitStatus { kDone = 0, kFailed = 1, kUsage = 2, kBadScene = 3, kInterrupted = 130 };
+
+ExitStatus exit_status(StatusCode code) {
+  switch (code) {
+  case StatusCode::kOk:
+    return kDone;
+  case StatusCode::kInvalidArgument:
+    return kUsage;
+  case StatusCode::kBadScene:
+    return kBadScene;
+  case StatusCode::kCancelled:
+    return kInterrupted;
+  default:
+    return kFailed;
+  }
+}
+
+Status run_command(const CommandLine& line) {
+  switch (line.command) {
+  case Command::kSolve:
+    return run_solve(line);
+  case Command::kFormFactors:
+    return run_formfactors(line);
+  case Command::kRender:
+    return run_render(line);
+  case Command::kInfo:
+    return run_info(line);
+  case Command::kLook:
+    return run_look(line);
+  }
+  return {};
+}
+
+int run(int argc, char** argv) {
+  CommandLine line;
+  switch (parse_command_line(argc, argv, &line)) {
+  case ParseOutcome::kUsageError:
+    return kUsage;
+  case ParseOutcome::kDone:
+    break;
+  case ParseOutcome::kRun:
+    catch_interrupts();
+    if (const Status status = run_command(line); !status.ok()) {
+      flush_output();
+      print_message(status.message());
+      return exit_status(status.code());
+    }
+  }
+  if (!flush_output()) {
+    print_message("stdout cannot be written");
+    return kFailed;
+  }
+  return kDone;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_message("out of memory");
+  } catch (const std::exception& exception) {
+    print_message(exception.what());
+  }
+  return kFailed;
+}

@@ -1,0 +1,123 @@
+#include "radiosity/cli/option_values.h"
+
+#include "radiosity/cli/console.h"
+#include "radiosity/hemicube/delta_form_factors.h"
+#include "radiosity/output/camera_view.h"
+#include "raster/simd/dispatch.h"
+#include "raster/types.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+/// @return false unless the whole text is one number of the type
+template <typename Number> bool read_number(std::string_view text, Number* value) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, *value);
+  return error == std::errc() && stop == end;
+}
+
+/// Takes the text up to the next separator, or all of it, off the front.
+std::string_view take_part(std::string_view* text, char separator) {
+  const std::size_t end = std::min(text->find(separator), text->size());
+  const std::string_view part = text->substr(0, end);
+  text->remove_prefix(std::min(end + 1, text->size()));
+  return part;
+}
+
+/// The names of kernel_names() that run here.
+std::string available_isas() {
+  std::string available;
+  std::string_view names = raster::kernel_names();
+  while (!names.empty()) {
+    std::string_view name = take_part(&names, ',');
+    name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
+    if (raster::kernels_by_name(name) != nullptr)
+      available += concat(available.empty() ? "" : ", ", name);
+  }
+  return available;
+}
+
+} // namespace
+
+std::uint32_t parse_whole_number(std::string_view text, std::uint32_t min, std::uint32_t max) {
+  std::uint32_t value = 0;
+  if (!read_number(text, &value) || value < min || value > max)
+    throw BadValue(concat("must be a whole number, ", min, "..", max));
+  return value;
+}
+
+double parse_real_number(std::string_view text, double min, double max) {
+  double value = 0;
+  if (read_number(text, &value) && std::isfinite(value) && value > min && value < max)
+    return value;
+  if (max == std::numeric_limits<double>::infinity())
+    throw BadValue(concat("must be a number greater than ", min));
+  throw BadValue(concat("must be a number between ", min, " and ", max));
+}
+
+Vec3 parse_vector(std::string_view text) {
+  double values[3] = {};
+  bool good = std::count(text.begin(), text.end(), ',') == 2;
+  for (double& value : values)
+    good = good && read_number(take_part(&text, ','), &value) && std::isfinite(value);
+  if (!good)
+    throw BadValue("must be three numbers, x,y,z");
+  return {values[0], values[1], values[2]};
+}
+
+void parse_size(std::string_view text, CameraOptions* camera) {
+  for (std::optional<std::uint32_t>* side : {&camera->width, &camera->height}) {
+    std::uint32_t pixels = 0;
+    const std::string_view part = side == &camera->width ? take_part(&text, 'x') : text;
+    if (!read_number(part, &pixels) || pixels < 1 || pixels > Camera::kMaxSize)
+      throw BadValue(concat("must be WIDTHxHEIGHT in pixels, each 1..", Camera::kMaxSize));
+    *side = pixels;
+  }
+}
+
+std::uint32_t parse_resolution(std::string_view text) {
+  std::uint32_t value = 0;
+  if (!read_number(text, &value) || value < kMinResolution || value > kMaxResolution ||
+      value % 2 != 0)
+    throw BadValue(
+        concat("must be an even number of pixels, ", kMinResolution, "..", kMaxResolution));
+  return value;
+}
+
+RowSelection parse_rows(std::string_view text) {
+  constexpr std::string_view kEvery = "every:";
+  RowSelection rows;
+  if (text.starts_with(kEvery)) {
+    if (!read_number(text.substr(kEvery.size()), &rows.every) || rows.every == 0)
+      throw BadValue("must be every:N with a whole number N > 0");
+    return rows;
+  }
+  if (text.empty() || text.back() == ',')
+    throw BadValue("must be every:N or patch numbers, I,J,K");
+  while (!text.empty()) {
+    const std::string_view part = take_part(&text, ',');
+    std::uint32_t row = 0;
+    if (!read_number(part, &row) || row >= raster::kMaxPolygonCount)
+      throw BadValue(concat("'", part, "' is not a patch number; must be every:N or I,J,K"));
+    rows.listed.push_back(row);
+  }
+  std::sort(rows.listed.begin(), rows.listed.end());
+  const auto twice = std::adjacent_find(rows.listed.begin(), rows.listed.end());
+  if (twice != rows.listed.end())
+    throw BadValue(concat("names patch ", *twice, " twice"));
+  return rows;
+}
+
+const raster::Kernels* parse_isa(std::string_view name) {
+  const raster::Kernels* kernels = raster::kernels_by_name(name);
+  if (kernels == nullptr)
+    throw BadValue(concat("this program on this machine has ", available_isas()));
+  return kernels;
+}
+
+} // namespace hemicube::radiosity::cli

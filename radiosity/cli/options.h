@@ -1,0 +1,62 @@
+#pragma once
+
+#include "radiosity/radiosity.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemicube::radiosity::cli {
+
+/// The version of the program; the build defines it.
+inline constexpr const char* kVersion = HC_VERSION;
+
+enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook };
+
+/// Which rows of form factors are wanted, `--rows`.
+struct RowSelection {
+  std::uint32_t every = 1;           ///< 0, every, 2 every, ... if there is no list
+  std::vector<std::uint32_t> listed; ///< ascending, no two the same; maybe more than there are
+  bool is_all() const { return every == 1 && listed.empty(); }
+};
+
+/// `--camera-position` and its like: what takes the place of the scene's own camera.
+struct CameraOptions {
+  std::optional<Vec3> position, target, up;
+  std::optional<double> field_of_view;        ///< degrees
+  std::optional<std::uint32_t> width, height; ///< pixels
+
+  bool is_any() const { return position || target || up || field_of_view || width || height; }
+};
+
+/// The command line, checked as far as it can be without the scene. Only the members a command has
+/// are filled for it.
+struct CommandLine {
+  Command command = Command::kInfo;
+
+  // All commands.
+  Options options;           ///< kernels is set
+  std::uint32_t threads = 0; ///< 0 = cores
+  double max_edge = 0;       ///< metres; 0 = as the scene says
+  bool json = false;         ///< the report as one JSON object on stdout
+  bool quiet = false;        ///< no progress, warnings or summary
+  std::string input;         ///< SCENE, or DIR|SCENE
+  std::string output;        ///< -o; empty = none
+
+  std::string points;                       ///< formfactors --points; empty = rows of patches
+  RowSelection rows;                        ///< formfactors --rows
+  std::string scene;                        ///< render --scene; empty = none
+  CameraOptions camera;                     ///< render
+  double exposure = 0;                      ///< solve, render; 0 = chosen
+  std::optional<std::uint32_t> patch, face; ///< look: one of them
+  bool whole_row = false;                   ///< look --all
+};
+
+/// What parse_command_line leaves to do.
+enum class ParseOutcome { kRun, kDone, kUsageError };
+
+/// Reads the command line. Help and version go to stdout (kDone), what is wrong with it to stderr.
+ParseOutcome parse_command_line(int argc, char** argv, CommandLine* line);
+
+} // namespace hemicube::radiosity::cli

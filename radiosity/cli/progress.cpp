@@ -1,0 +1,102 @@
+#include "radiosity/cli/progress.h"
+
+#include "radiosity/cli/interrupt.h"
+
+#include <cstdio>
+#include <unistd.h>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kBarInterval{100};
+constexpr std::chrono::seconds kLineInterval{5};
+constexpr int kBarWidth = 30;
+
+/// As in "1:02:03" or "0:07".
+void print_duration(char* text, std::size_t size, double seconds) {
+  const auto whole = static_cast<unsigned long long>(seconds < 1e9 ? seconds + 0.5 : 1e9);
+  if (whole >= 3600)
+    std::snprintf(text, size, "%llu:%02llu:%02llu", whole / 3600, whole / 60 % 60, whole % 60);
+  else
+    std::snprintf(text, size, "%llu:%02llu", whole / 60, whole % 60);
+}
+
+} // namespace
+
+ProgressReport::ProgressReport(bool quiet)
+    : style_(quiet                          ? Style::kSilent
+             : ::isatty(STDERR_FILENO) == 1 ? Style::kBar
+                                            : Style::kLines),
+      last_call_(Clock::now()), last_shown_(last_call_) {}
+
+bool ProgressReport::rows(std::uint64_t done, std::uint64_t total) noexcept {
+  count_time(false);
+  if (!interrupted() && is_time_to_show()) {
+    const double rate = row_time_.count() > 0 ? static_cast<double>(done) / row_time_.count() : 0;
+    const double part = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
+    char left[32], bar[kBarWidth + 4] = "", text[160];
+    print_duration(left, sizeof left, rate > 0 ? static_cast<double>(total - done) / rate : 0);
+    if (style_ == Style::kBar) {
+      const int full = static_cast<int>(part * kBarWidth);
+      bar[0] = '[';
+      for (int i = 0; i < kBarWidth; ++i)
+        bar[1 + i] = i < full ? '#' : '.';
+      bar[kBarWidth + 1] = ']';
+      bar[kBarWidth + 2] = ' ';
+      bar[kBarWidth + 3] = '\0';
+    }
+    std::snprintf(text, sizeof text, "%s%3.0f %% of %llu hemicubes, %.0f/s, %s left", bar,
+                  100 * part, static_cast<unsigned long long>(total), rate, left);
+    show(text);
+  }
+  return !interrupted();
+}
+
+bool ProgressReport::sweeps(std::uint64_t sweeps, double error) noexcept {
+  count_time(true);
+  if (!interrupted() && is_time_to_show()) {
+    char text[160];
+    std::snprintf(text, sizeof text, "sweep %llu, estimated error %.2g",
+                  static_cast<unsigned long long>(sweeps), error);
+    show(text);
+  }
+  return !interrupted();
+}
+
+void ProgressReport::finish() noexcept {
+  count_time(sweeping_);
+  if (bar_is_shown_)
+    std::fputs("\r\033[K", stderr);
+  bar_is_shown_ = false;
+  style_ = Style::kSilent;
+}
+
+/// The time up to a row was spent on rows, that up to a sweep on sweeps.
+void ProgressReport::count_time(bool sweeping) noexcept {
+  const Clock::time_point now = Clock::now();
+  (sweeping ? sweep_time_ : row_time_) += now - last_call_;
+  last_call_ = now;
+  sweeping_ = sweeping;
+}
+
+bool ProgressReport::is_time_to_show() noexcept {
+  if (style_ == Style::kSilent)
+    return false;
+  const Clock::duration interval =
+      style_ == Style::kBar ? Clock::duration(kBarInterval) : Clock::duration(kLineInterval);
+  if (last_call_ - last_shown_ < interval)
+    return false;
+  last_shown_ = last_call_;
+  return true;
+}
+
+void ProgressReport::show(const char* text) noexcept {
+  if (style_ == Style::kBar)
+    std::fprintf(stderr, "\r%s\033[K", text);
+  else
+    std::fprintf(stderr, "hemicube: %s\n", text);
+  bar_is_shown_ = style_ == Style::kBar;
+  std::fflush(stderr);
+}
+
+} // namespace hemicube::radiosity::cli

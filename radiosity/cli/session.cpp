@@ -1,0 +1,127 @@
+#include "radiosity/cli/session.h"
+
+#include "radiosity/cli/console.h"
+#include "radiosity/light_model.h"
+#include "radiosity/output/camera_view.h"
+#include "radiosity/output/report_json.h"
+#include "raster/span_kernel.h"
+
+#include <filesystem>
+#include <sys/resource.h>
+
+namespace hemicube::radiosity::cli {
+namespace {
+
+std::uint64_t peak_memory_bytes() {
+  struct rusage usage = {};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0)
+    return 0;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+} // namespace
+
+Status Session::begin(const std::string& scene_path) {
+  HC_TRY(load_scene(scene_path, line.max_edge, &loaded, &run));
+  scene_path_ = std::filesystem::absolute(scene_path).string();
+  if (!line.quiet)
+    for (const std::string& warning : warnings(loaded))
+      print_message(concat(scene_path, ": ", warning));
+  HC_TRY(pool_.init(line.threads));
+  run.isa = line.options.kernels->name;
+  run.threads = static_cast<std::uint32_t>(pool_.worker_count());
+  return {};
+}
+
+template <typename Work> Status Session::compute(Work work) {
+  ProgressReport progress(line.quiet);
+  const Status status = work(&progress);
+  progress.finish();
+  run.form_factor_seconds = progress.row_seconds();
+  run.solve_seconds = progress.sweep_seconds();
+  return status;
+}
+
+Status Session::solve(Solution* solution, Certificate* certificate) {
+  const Status status = compute([&](Progress* progress) {
+    return solve_scene(loaded.scene, loaded.patches, line.options, pool_, progress, solution,
+                       certificate);
+  });
+  if (status.code() == StatusCode::kSingular)
+    return Status::error(status.code(), scene_path_, ": ", status.message());
+  return status;
+}
+
+Status Session::form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
+                             Certificate* certificate) {
+  const Status status = compute([&](Progress* progress) {
+    return compute_form_factors(loaded.patches, rows, line.options, pool_, progress, matrix,
+                                certificate);
+  });
+  certificate->scene_hash = hash_scene(loaded.scene, loaded.patches);
+  return status;
+}
+
+Status Session::point_form_factors(std::span<const Receiver> points, FormFactorMatrix* matrix,
+                                   Certificate* certificate) {
+  const Status status = compute([&](Progress* progress) {
+    return compute_point_form_factors(loaded.patches, points, line.options, pool_, progress, matrix,
+                                      certificate);
+  });
+  certificate->scene_hash = hash_scene(loaded.scene, loaded.patches);
+  return status;
+}
+
+Status Session::choose_camera(Camera* camera) const {
+  const CameraOptions& wish = line.camera;
+  const Camera& own = loaded.scene.camera;
+  *camera = own;
+  if (!loaded.scene.has_camera)
+    *camera = fit_camera(loaded.patches, wish.width.value_or(own.width),
+                         wish.height.value_or(own.height));
+  camera->width = wish.width.value_or(camera->width);
+  camera->height = wish.height.value_or(camera->height);
+  camera->position = wish.position.value_or(camera->position);
+  camera->target = wish.target.value_or(camera->target);
+  camera->up = wish.up.value_or(camera->up);
+  camera->vertical_field_of_view = wish.field_of_view.value_or(camera->vertical_field_of_view);
+  CameraView view;
+  const Status status = camera_view(*camera, 1, &view);
+  if (status.ok() || wish.is_any())
+    return status;
+  return Status::error(StatusCode::kBadScene, loaded.read.files.front(), ": ", status.message());
+}
+
+ReportParts Session::report_parts(const Certificate& certificate) {
+  run.peak_memory_bytes = peak_memory_bytes();
+  return {loaded.scene, line.options, certificate, loaded.mesh,  loaded.read.skipped,
+          run,          kVersion,     scene_path_, line.max_edge};
+}
+
+std::string Session::report_text(const Certificate& certificate) {
+  return report_json(report_parts(certificate));
+}
+
+std::string Session::hemicubes_text(const Certificate& certificate) const {
+  std::string text = counted(certificate.hemicubes, "hemicube", "hemicubes");
+  if (run.form_factor_seconds > 0)
+    text += concat(" (",
+                   static_cast<std::uint64_t>(static_cast<double>(certificate.hemicubes) /
+                                              run.form_factor_seconds),
+                   "/s)");
+  return text;
+}
+
+std::string losses_text(const Certificate& certificate) {
+  std::string text;
+  const auto add = [&text](const char* name, const WorstFraction& fraction) {
+    if (fraction.max > 0)
+      text += concat(text.empty() ? "; worst " : ", ", name, " ", rounded(fraction.max), " (patch ",
+                     fraction.worst_patch, ")");
+  };
+  add("space", certificate.space);
+  add("back side", certificate.back_side);
+  return text;
+}
+
+} // namespace hemicube::radiosity::cli

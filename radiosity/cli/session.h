@@ -1,0 +1,56 @@
+#pragma once
+
+#include "radiosity/cli/load_scene.h"
+#include "radiosity/cli/options.h"
+#include "radiosity/cli/progress.h"
+#include "radiosity/output/report_json.h"
+#include "radiosity/parallel/thread_pool.h"
+
+#include <string>
+
+namespace hemicube::radiosity::cli {
+
+/// What all commands share: the scene, the workers, and the report on how it went.
+class Session {
+public:
+  /// @param command_line  must outlive the session
+  explicit Session(const CommandLine& command_line) : line(command_line) {}
+
+  /// Loads the scene, warns of what was skipped and repaired, and starts the workers.
+  Status begin(const std::string& scene_path);
+
+  Status solve(Solution* solution, Certificate* certificate);
+  /// @param rows  of these patches; empty = of all
+  Status form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
+                      Certificate* certificate);
+  Status point_form_factors(std::span<const Receiver> points, FormFactorMatrix* matrix,
+                            Certificate* certificate);
+
+  /// The scene's camera, or one that shows all of it, changed as the command line says.
+  /// @return if it shows nothing: kBadScene for the scene's camera as it is, else kInvalidArgument
+  Status choose_camera(Camera* camera) const;
+
+  /// What report.json is made of; refers to the session and the certificate.
+  ReportParts report_parts(const Certificate& certificate);
+
+  /// The text of report.json.
+  std::string report_text(const Certificate& certificate);
+
+  /// "1234 hemicubes (567/s)".
+  std::string hemicubes_text(const Certificate& certificate) const;
+
+  const CommandLine& line;
+  LoadedScene loaded;
+  RunReport run;
+
+private:
+  template <typename Work> Status compute(Work work);
+
+  std::string scene_path_;
+  ThreadPool pool_;
+};
+
+/// "; worst space 0.25 (patch 3), back side 0.5 (patch 7)", without what is zero everywhere.
+std::string losses_text(const Certificate& certificate);
+
+} // namespace hemicube::radiosity::cli

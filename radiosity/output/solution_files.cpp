@@ -1,0 +1,84 @@
+#include "radiosity/output/solution_files.h"
+
+#include "radiosity/output/group_table.h"
+#include "radiosity/output/image_writer.h"
+#include "radiosity/output/patch_table.h"
+#include "radiosity/output/ply_writer.h"
+#include "radiosity/output/vertex_radiosity.h"
+
+#include <chrono>
+#include <exception>
+
+namespace hemicube::radiosity {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Status write_pictures(FileSet* files, const Picture& picture, double exposure,
+                      std::string* picture_note) {
+  if (const Status loaded = load_image_plugin(); !loaded.ok()) {
+    *picture_note = loaded.message();
+    return {};
+  }
+  HC_TRY(write_picture(files, "view.exr", picture, exposure));
+  return write_picture(files, "view.png", picture, exposure);
+}
+
+Status write_report(FileSet* files, const ReportParts& parts, Clock::time_point start,
+                    std::string* report) {
+  RunReport run = parts.run;
+  run.write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  *report = report_json({parts.scene, parts.options, parts.certificate, parts.mesh, parts.skipped,
+                         run, parts.version, parts.scene_path, parts.max_edge});
+  return files->add("report.json", *report);
+}
+
+Status write_all(FileSet* files, const SolutionParts& parts, std::string* report,
+                 std::string* picture_note) {
+  const Clock::time_point start = Clock::now();
+  const Scene& scene = parts.report.scene;
+  const PatchSet& patches = parts.patches;
+  const Solution& solution = parts.solution;
+
+  HC_TRY(files->add("patches.csv", patch_table(scene, patches, solution)));
+  HC_TRY(files->add("groups.csv", group_table(scene, patches, solution)));
+
+  Buffer<float> corner_radiosity;
+  HC_TRY(vertex_radiosities(patches, solution.radiosity, solution.band_count, &corner_radiosity));
+  Picture picture;
+  HC_TRY(draw_picture(scene, patches, solution, corner_radiosity, parts.camera, parts.kernels,
+                      &picture));
+  double exposure = parts.exposure;
+  if (exposure == 0) {
+    const Result<double> chosen = choose_exposure(picture);
+    HC_TRY(chosen.status());
+    exposure = chosen.value();
+  }
+  HC_TRY(write_ply(files, "solution.ply", scene, patches, corner_radiosity, exposure));
+  HC_TRY(write_pictures(files, picture, exposure, picture_note));
+  HC_TRY(write_report(files, parts.report, start, report));
+  return files->commit();
+}
+
+} // namespace
+
+Status begin_solution(FileSet* files, const std::string& folder) {
+  HC_TRY(files->begin(folder));
+  for (const char* name :
+       {"patches.csv", "groups.csv", "solution.ply", "view.exr", "view.png", "report.json"})
+    HC_TRY(files->check_name(name));
+  return {};
+}
+
+Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
+                      std::string* picture_note) {
+  picture_note->clear();
+  try {
+    return write_all(files, parts, report, picture_note);
+  } catch (const std::exception& exception) { // in practice: no memory for a text
+    return Status::error(StatusCode::kOutOfMemory,
+                         "the solution cannot be written: ", exception.what());
+  }
+}
+
+} // namespace hemicube::radiosity

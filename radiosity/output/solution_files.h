@@ -1,0 +1,35 @@
+#pragma once
+
+#include "radiosity/output/file_set.h"
+#include "radiosity/output/report_json.h"
+
+#include <string>
+
+namespace hemicube::radiosity {
+
+/// What solution_files writes.
+struct SolutionParts {
+  const PatchSet& patches;
+  const Solution& solution;
+  ReportParts report;  ///< write_seconds is measured while writing
+  Camera camera;       ///< the scene's, or fit_camera()
+  double exposure = 0; ///< of the display picture; 0 = choose_exposure()
+  const raster::Kernels& kernels;
+};
+
+/// Chooses the folder of a solution and proves that its files can be written there, before the
+/// work.
+/// @return kIo
+Status begin_solution(FileSet* files, const std::string& folder);
+
+/// Writes patches.csv, groups.csv, solution.ply, view.exr, view.png and report.json, and commits
+/// them.
+/// @param report         receives the text of report.json
+/// @param picture_note   receives why there are no pictures if the image plug-in cannot be loaded:
+/// a
+///                       solution is not thrown away for that
+/// @return kIo, kInvalidArgument (camera), kOutOfMemory; no file has then changed
+Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
+                      std::string* picture_note);
+
+} // namespace hemicube::radiosity

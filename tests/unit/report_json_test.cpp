@@ -1,0 +1,87 @@
+#include "radiosity/output/report_json.h"
+
+#include "tests/unit/output_support.h"
+
+#include <nlohmann/json.hpp>
+
+namespace hemicube::radiosity::test {
+namespace {
+
+using Json = nlohmann::json;
+
+struct ReportTest : ::testing::Test {
+  ReportTest() {
+    require(scene.bands.add("r"));
+    require(scene.bands.add("caf\xe9")); // Latin-1: not UTF-8
+    certificate.patches = 384;
+    certificate.row_sum = {0.9, 0.95, 1};
+    certificate.scene_hash = 0xabcu;
+    certificate.radiosity_hash = 0xfedcba9876543210u;
+    certificate.solved = true;
+    certificate.estimated_error = 0.1;
+    require(certificate.energy.push_back({1, 2, 3, 4, 5}));
+    require(certificate.energy.push_back({6, 7, 8, 9, 10}));
+    mesh.dropped_zero_area = 2;
+    run.isa = "avx2";
+    run.threads = 3;
+  }
+
+  Json report() const {
+    return Json::parse(report_json({scene, options, certificate, mesh, skipped, run, "1.2.3"}));
+  }
+
+  Scene scene;
+  Options options;
+  Certificate certificate;
+  MeshReport mesh;
+  std::map<std::string, std::uint64_t> skipped = {{"textures (map_Kd)", 5}, {"nothing", 0}};
+  RunReport run;
+};
+
+TEST_F(ReportTest, ResultHoldsWhatWasComputed) {
+  const Json result = report()["result"];
+  EXPECT_EQ(result["patches"], 384);
+  EXPECT_EQ(result["row_sum"], (Json{{"min", 0.9}, {"mean", 0.95}, {"max", 1.0}}));
+  EXPECT_EQ(result["estimated_error"].get<double>(), 0.1) << "bit for bit";
+  EXPECT_EQ(result["energy"]["emitted"], (Json{1.0, 6.0}));
+  EXPECT_EQ(result["energy"]["imbalance"], (Json{5.0, 10.0}));
+  EXPECT_EQ(result["bands"][0], "r");
+  EXPECT_EQ(result["repaired"], (Json{{"dropped_zero_area", 2}}));
+  EXPECT_EQ(result["skipped"], (Json{{"textures (map_Kd)", 5}}));
+  EXPECT_EQ(result["hashes"]["scene"], "0000000000000abc");
+  EXPECT_EQ(result["hashes"]["radiosity"], "fedcba9876543210");
+  EXPECT_EQ(result["options"]["resolution"], 256);
+}
+
+TEST_F(ReportTest, WhatIsNotKnownIsAbsent) {
+  certificate.estimated_error = std::numeric_limits<double>::infinity();
+  certificate.residual = std::numeric_limits<double>::quiet_NaN();
+  Json result = report()["result"];
+  EXPECT_FALSE(result.contains("estimated_error"));
+  EXPECT_FALSE(result.contains("residual"));
+  EXPECT_FALSE(result["hashes"].contains("items"));
+  EXPECT_FALSE(result["space"].contains("worst_patch")) << "nothing is lost";
+  certificate.energy.clear();
+  EXPECT_FALSE(report()["result"].contains("energy"));
+  certificate.solved = false;
+  const Json whole = report();
+  result = whole["result"];
+  for (const char* key : {"energy", "sweeps", "converged", "bands"})
+    EXPECT_FALSE(result.contains(key)) << key;
+  EXPECT_FALSE(result["hashes"].contains("radiosity"));
+  EXPECT_FALSE(whole["run"]["seconds"].contains("solve"));
+}
+
+TEST_F(ReportTest, ResultDoesNotDependOnTheRun) {
+  const Json before = report();
+  run = {"scalar", 7, 1, 2, 3, 4, 5, 1000};
+  const Json after = report();
+  EXPECT_EQ(before["result"].dump(), after["result"].dump());
+  EXPECT_NE(before["run"], after["run"]);
+  EXPECT_EQ(after["run"]["threads"], 7);
+  EXPECT_EQ(after["run"]["seconds"]["write"], 5.0);
+  EXPECT_EQ(after["run"]["version"], "1.2.3");
+}
+
+} // namespace
+} // namespace hemicube::radiosity::test
