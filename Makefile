@@ -21,7 +21,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize core golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize core bench golden clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -71,6 +71,11 @@ sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitize
 core: ## the embeddable core alone: a C++20 compiler and GLM
 	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON
 	@cmake --build $(BUILD)/core --parallel $(JOBS)
+
+bench: deps ## hemicubes per second beside their error into bench/results
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target rows_bench
+	@$(BUILD)/rows_bench bench/results
 
 golden: deps ## rewrite tests/golden/hashes.txt (only for changes that are meant to change results)
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
