@@ -46,8 +46,6 @@ public:
         });
   }
 
-  std::uint64_t done() const noexcept { return done_; }
-
 private:
   Status count_row();
 

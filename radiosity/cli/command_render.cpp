@@ -30,12 +30,9 @@ Status write_image(const Session& session, const Solution& solution, const Camer
   Picture picture;
   HC_TRY(draw_picture(loaded.scene, loaded.patches, solution, corner_radiosity, camera,
                       *session.line.options.kernels, &picture));
-  *exposure = session.line.exposure;
-  if (*exposure == 0) {
-    const Result<double> chosen = choose_exposure(picture);
-    HC_TRY(chosen.status());
-    *exposure = chosen.value();
-  }
+  const Result<double> chosen = choose_exposure(picture, session.line.exposure);
+  HC_TRY(chosen.status());
+  *exposure = chosen.value();
   return write_picture(files, name, picture, *exposure);
 }
 

@@ -134,7 +134,9 @@ Status draw_picture(const Scene& scene, const PatchSet& patches, const Solution&
   return {};
 }
 
-Result<double> choose_exposure(const Picture& picture) {
+Result<double> choose_exposure(const Picture& picture, double given) {
+  if (given != 0)
+    return given;
   constexpr double kQuantile = 0.95, kShownAs = 0.8;
   for (const PixelKind kind : {PixelKind::kSurface, PixelKind::kEmitter}) {
     Buffer<double> lit;

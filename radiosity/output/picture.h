@@ -26,7 +26,8 @@ Status draw_picture(const Scene& scene, const PatchSet& patches, const Solution&
 /// An exposure for display: the brightest 5 % of the pixels that show lit surfaces which do not
 /// emit are at or above 0.8 of display white. A picture of emitters alone is exposed for them, a
 /// black one gets 1.
-Result<double> choose_exposure(const Picture& picture);
+/// @param given  an exposure that was asked for, and is returned; 0 = none was
+Result<double> choose_exposure(const Picture& picture, double given = 0);
 
 /// Relative luminance of linear sRGB.
 inline double luminance(double red, double green, double blue) {

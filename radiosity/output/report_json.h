@@ -18,7 +18,7 @@ struct ReportParts {
   const Certificate& certificate;
   const MeshReport& mesh;
   const std::map<std::string, std::uint64_t>& skipped; ///< statements read over, by reason
-  const RunReport& run;
+  RunReport run;
   std::string_view version;
   std::string scene_path = {}; ///< absolute; empty = not told
   double max_edge = 0;         ///< metres, from the command line; 0 = as the scene says

@@ -26,10 +26,9 @@ Status write_pictures(FileSet* files, const Picture& picture, double exposure,
 
 Status write_report(FileSet* files, const ReportParts& parts, Clock::time_point start,
                     std::string* report) {
-  RunReport run = parts.run;
-  run.write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  *report = report_json({parts.scene, parts.options, parts.certificate, parts.mesh, parts.skipped,
-                         run, parts.version, parts.scene_path, parts.max_edge});
+  ReportParts timed = parts;
+  timed.run.write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  *report = report_json(timed);
   return files->add("report.json", *report);
 }
 
@@ -48,14 +47,10 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
   Picture picture;
   HC_TRY(draw_picture(scene, patches, solution, corner_radiosity, parts.camera, parts.kernels,
                       &picture));
-  double exposure = parts.exposure;
-  if (exposure == 0) {
-    const Result<double> chosen = choose_exposure(picture);
-    HC_TRY(chosen.status());
-    exposure = chosen.value();
-  }
-  HC_TRY(write_ply(files, "solution.ply", scene, patches, corner_radiosity, exposure));
-  HC_TRY(write_pictures(files, picture, exposure, picture_note));
+  const Result<double> exposure = choose_exposure(picture, parts.exposure);
+  HC_TRY(exposure.status());
+  HC_TRY(write_ply(files, "solution.ply", scene, patches, corner_radiosity, exposure.value()));
+  HC_TRY(write_pictures(files, picture, exposure.value(), picture_note));
   HC_TRY(write_report(files, parts.report, start, report));
   return files->commit();
 }

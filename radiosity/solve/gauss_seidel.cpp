@@ -81,20 +81,20 @@ Status GaussSeidel::find_contraction() {
   Buffer<std::uint8_t> lit; // [enclosure][band]
   HC_TRY(lit.resize(enclosures_.first_patch.size() * bands_));
   HC_TRY(contraction_.resize(bands_));
-  const auto for_each_unknown = [&](auto visit) {
-    for (std::size_t i = 0; i < problem_.patch_count(); ++i)
-      if (reflects(i))
-        for (std::uint32_t b = 0; b < bands_; ++b)
-          visit(i, b, lit[std::size_t{enclosures_.of_patch[i]} * bands_ + b]);
+  const auto lit_at = [&](std::size_t patch, std::uint32_t band) -> std::uint8_t& {
+    return lit[std::size_t{enclosures_.of_patch[patch]} * bands_ + band];
   };
-  for_each_unknown([&](std::size_t i, std::uint32_t b, std::uint8_t& is_lit) {
-    is_lit |= source_[i * bands_ + b] > 0;
-  });
-  for_each_unknown([&](std::size_t i, std::uint32_t b, std::uint8_t is_lit) {
-    if (is_lit != 0)
-      contraction_[b] =
-          std::max(contraction_[b], problem_.reflectance[i * bands_ + b] * row_sum(matrix_.row(i)));
-  });
+  for (std::size_t i = 0; i < problem_.patch_count(); ++i)
+    for (std::uint32_t b = 0; b < bands_ && reflects(i); ++b)
+      lit_at(i, b) |= source_[i * bands_ + b] > 0;
+  for (std::size_t i = 0; i < problem_.patch_count(); ++i) {
+    if (!reflects(i))
+      continue;
+    const double sum = row_sum(matrix_.row(i));
+    for (std::uint32_t b = 0; b < bands_; ++b)
+      if (lit_at(i, b) != 0)
+        contraction_[b] = std::max(contraction_[b], problem_.reflectance[i * bands_ + b] * sum);
+  }
   return {};
 }
 
