@@ -22,9 +22,14 @@ struct Options {
 /// Called from time to time, from any worker, never twice at once.
 class Progress {
 public:
+  /// Rows are built in one loop; by solve_scene in two, those of black patches after the sweeps.
+  /// A loop begins and ends with a call, and there are others in between: time between two calls
+  /// without a sweeps() in between was spent on rows and nothing else. The first call has
+  /// done = 0, all set-up being done; the last has done = total.
   /// @param done, total  rows finished, rows in all
   /// @return false to stop the run: it then ends with kCancelled
   virtual bool rows(std::uint64_t done, std::uint64_t total) noexcept = 0;
+  /// Called before the first sweep, with 0, and after every few.
   /// @param error  the estimated relative error after `sweeps` sweeps
   virtual bool sweeps(std::uint64_t sweeps, double error) noexcept = 0;
 

@@ -18,20 +18,18 @@ Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64
 }
 
 Status RowRun::count_row() {
-  const std::uint64_t done = ++done_;
-  if (progress_ == nullptr)
+  ++done_;
+  // A worker that finds another one reporting has better things to do than to wait.
+  const std::unique_lock lock(progress_mutex_, std::try_to_lock);
+  return lock.owns_lock() ? report() : Status();
+}
+
+Status RowRun::report() {
+  const std::uint64_t done = done_;
+  if (progress_ == nullptr || progress_->rows(done, total_))
     return {};
-  // A worker that finds another one reporting has better things to do than to wait; but the last
-  // row is always reported.
-  std::unique_lock lock(progress_mutex_, std::defer_lock);
-  if (done == total_)
-    lock.lock();
-  else if (!lock.try_lock())
-    return {};
-  if (!progress_->rows(done, total_))
-    return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_,
-                         " hemicubes");
-  return {};
+  return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_,
+                       " hemicubes");
 }
 
 } // namespace hemicube::radiosity

@@ -19,35 +19,39 @@ public:
               Executor& executor, Progress* progress);
 
   /// Calls take(index, row, builder) for the indices 0 .. count-1; those of one block of
-  /// FormFactorMatrix::kBlockRows come in ascending order from one worker.
+  /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
+  /// the first row, after the last one, and in between.
   /// @param view_of  bool(index, raster::View*); false if no row is wanted there: take then gets an
   ///                 empty row and a null builder
   template <typename ViewOf, typename Take>
   Status build(std::uint64_t count, ViewOf view_of, Take take) {
     constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
-    return executor_->for_each(
-        (count + kRows - 1) / kRows, [&](std::size_t block, std::size_t worker) {
-          const FloatEnvironment environment;
-          RowBuilder& builder = builders_[worker];
-          if (!builder.ready())
-            HC_TRY(builder.init(setup_));
-          const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
-          for (std::uint64_t index = block * kRows; index < end; ++index) {
-            raster::View view;
-            if (!view_of(index, &view)) {
-              HC_TRY(take(index, RowView(), nullptr));
-              continue;
-            }
-            const RowView row = builder.build(view);
-            HC_TRY(take(index, row, &builder));
-            HC_TRY(count_row());
-          }
-          return Status();
-        });
+    const auto build_block = [&](std::size_t block, std::size_t worker) {
+      const FloatEnvironment environment;
+      RowBuilder& builder = builders_[worker];
+      if (!builder.ready())
+        HC_TRY(builder.init(setup_));
+      const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
+      for (std::uint64_t index = block * kRows; index < end; ++index) {
+        raster::View view;
+        if (!view_of(index, &view)) {
+          HC_TRY(take(index, RowView(), nullptr));
+          continue;
+        }
+        const RowView row = builder.build(view);
+        HC_TRY(take(index, row, &builder));
+        HC_TRY(count_row());
+      }
+      return Status();
+    };
+    HC_TRY(report());
+    HC_TRY(executor_->for_each((count + kRows - 1) / kRows, build_block));
+    return report();
   }
 
 private:
   Status count_row();
+  Status report();
 
   RowSetup setup_;
   FixedArray<RowBuilder> builders_;

@@ -94,7 +94,8 @@ RowSelection parse_rows(std::string_view text) {
   RowSelection rows;
   if (text.starts_with(kEvery)) {
     if (!read_number(text.substr(kEvery.size()), &rows.every) || rows.every == 0)
-      throw BadValue("must be every:N with a whole number N > 0");
+      throw BadValue(concat("must be every:N with a whole number N, 1..",
+                            std::numeric_limits<std::uint64_t>::max()));
     return rows;
   }
   if (text.empty() || text.back() == ',')

@@ -16,7 +16,7 @@ enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook };
 
 /// Which rows of form factors are wanted, `--rows`.
 struct RowSelection {
-  std::uint32_t every = 1;           ///< 0, every, 2 every, ... if there is no list
+  std::uint64_t every = 1;           ///< 0, every, 2 every, ... if there is no list
   std::vector<std::uint32_t> listed; ///< ascending, no two the same; maybe more than there are
   bool is_all() const { return every == 1 && listed.empty(); }
 };

@@ -30,9 +30,12 @@ ProgressReport::ProgressReport(bool quiet)
       last_call_(Clock::now()), last_shown_(last_call_) {}
 
 bool ProgressReport::rows(std::uint64_t done, std::uint64_t total) noexcept {
-  count_time(false);
-  if (!interrupted() && is_time_to_show()) {
-    const double rate = row_time_.count() > 0 ? static_cast<double>(done) / row_time_.count() : 0;
+  // The first call of a loop over rows ends what came before it.
+  count_time();
+  part_ = kRows;
+  if (!interrupted() && done != 0 && is_time_to_show()) {
+    const double seconds = time_[kRows].count();
+    const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
     const double part = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
     char left[32], bar[kBarWidth + 4] = "", text[160];
     print_duration(left, sizeof left, rate > 0 ? static_cast<double>(total - done) / rate : 0);
@@ -53,7 +56,9 @@ bool ProgressReport::rows(std::uint64_t done, std::uint64_t total) noexcept {
 }
 
 bool ProgressReport::sweeps(std::uint64_t sweeps, double error) noexcept {
-  count_time(true);
+  // Between the last row and the first sweep the solver gets ready.
+  part_ = kSolve;
+  count_time();
   if (!interrupted() && is_time_to_show()) {
     char text[160];
     std::snprintf(text, sizeof text, "sweep %llu, estimated error %.2g",
@@ -64,19 +69,16 @@ bool ProgressReport::sweeps(std::uint64_t sweeps, double error) noexcept {
 }
 
 void ProgressReport::finish() noexcept {
-  count_time(sweeping_);
   if (bar_is_shown_)
     std::fputs("\r\033[K", stderr);
   bar_is_shown_ = false;
   style_ = Style::kSilent;
 }
 
-/// The time up to a row was spent on rows, that up to a sweep on sweeps.
-void ProgressReport::count_time(bool sweeping) noexcept {
+void ProgressReport::count_time() noexcept {
   const Clock::time_point now = Clock::now();
-  (sweeping ? sweep_time_ : row_time_) += now - last_call_;
+  time_[part_] += now - last_call_;
   last_call_ = now;
-  sweeping_ = sweeping;
 }
 
 bool ProgressReport::is_time_to_show() noexcept {

@@ -7,9 +7,12 @@
 namespace hemicube::radiosity::cli {
 
 /// Tells how far a run is, on stderr: a bar with the time left on a terminal, else a line every few
-/// seconds. It stops the run once the program was interrupted, and takes the time of its two parts.
+/// seconds. It stops the run once the program was interrupted, and takes the time of its parts.
 class ProgressReport final : public Progress {
 public:
+  /// What a run does: all that comes before the first row; rows; and what leads from rows to light.
+  enum Part { kBuild, kRows, kSolve };
+
   explicit ProgressReport(bool quiet);
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
@@ -21,24 +24,23 @@ public:
   /// Removes the bar. Call it before anything else is printed.
   void finish() noexcept;
 
-  /// Time spent on rows of form factors and on sweeps, until finish().
-  double row_seconds() const { return row_time_.count(); }
-  double sweep_seconds() const { return sweep_time_.count(); }
+  /// Time spent on a part, up to the last call.
+  double seconds(Part part) const { return time_[part].count(); }
 
 private:
   using Clock = std::chrono::steady_clock;
   using Seconds = std::chrono::duration<double>;
   enum class Style { kSilent, kLines, kBar };
 
-  void count_time(bool sweeping) noexcept;
+  void count_time() noexcept;
   bool is_time_to_show() noexcept;
   void show(const char* text) noexcept;
 
   Style style_;
   Clock::time_point last_call_, last_shown_;
-  bool sweeping_ = false; ///< what the time since the last call is spent on, for all we know
   bool bar_is_shown_ = false;
-  Seconds row_time_{0}, sweep_time_{0};
+  Part part_ = kBuild; ///< what the time since the last call is spent on
+  Seconds time_[3] = {};
 };
 
 } // namespace hemicube::radiosity::cli

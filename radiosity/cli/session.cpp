@@ -4,7 +4,7 @@
 #include "radiosity/light_model.h"
 #include "radiosity/output/camera_view.h"
 #include "radiosity/output/report_json.h"
-#include "raster/span_kernel.h"
+#include "raster/kernels.h"
 
 #include <filesystem>
 #include <sys/resource.h>
@@ -37,8 +37,9 @@ template <typename Work> Status Session::compute(Work work) {
   ProgressReport progress(line.quiet);
   const Status status = work(&progress);
   progress.finish();
-  run.form_factor_seconds = progress.row_seconds();
-  run.solve_seconds = progress.sweep_seconds();
+  run.build_seconds = progress.seconds(ProgressReport::kBuild);
+  run.form_factor_seconds = progress.seconds(ProgressReport::kRows);
+  run.solve_seconds = progress.seconds(ProgressReport::kSolve);
   return status;
 }
 

@@ -144,6 +144,7 @@ Json run_json(const ReportParts& parts) {
   Json& seconds = json["seconds"] = Json::object();
   set(&seconds, "read", run.read_seconds);
   set(&seconds, "mesh", run.mesh_seconds);
+  set(&seconds, "build", run.build_seconds);
   set(&seconds, "form_factors", run.form_factor_seconds);
   if (parts.certificate.solved)
     set(&seconds, "solve", run.solve_seconds);

@@ -256,16 +256,17 @@ Status gauss_seidel(const FormFactorMatrix& matrix, const LightProblem& problem,
   const FloatEnvironment environment;
   HC_TRY(solver.init());
   *convergence = {};
-  HC_TRY(solver.check(convergence));
-  while (!convergence->converged && convergence->sweeps < options.max_sweeps) {
+  while (true) {
+    HC_TRY(solver.check(convergence));
+    if (progress != nullptr && !progress->swept(convergence->sweeps, convergence->estimated_error))
+      return Status::error(StatusCode::kCancelled, "interrupted while solving");
+    if (convergence->converged || convergence->sweeps >= options.max_sweeps)
+      break;
     for (std::uint64_t k = 0; k < kSweepsPerCheck && convergence->sweeps < options.max_sweeps;
          ++k) {
       HC_TRY(solver.sweep());
       ++convergence->sweeps;
     }
-    HC_TRY(solver.check(convergence));
-    if (progress != nullptr && !progress->swept(convergence->sweeps, convergence->estimated_error))
-      return Status::error(StatusCode::kCancelled, "interrupted while solving");
   }
   HC_TRY(solver.finish(radiosity, irradiance));
   if (!convergence->converged)

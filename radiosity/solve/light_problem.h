@@ -44,7 +44,7 @@ struct Convergence {
   bool rounding_floor = false; ///< stopped because the residual is down to rounding
 };
 
-/// Told after every few sweeps; returns false to stop.
+/// Told before the first sweep and after every few; returns false to stop.
 class SolverProgress {
 public:
   virtual bool swept(std::uint64_t sweeps, double estimated_error) noexcept = 0;

@@ -74,12 +74,17 @@ TEST_F(ReportTest, WhatIsNotKnownIsAbsent) {
 
 TEST_F(ReportTest, ResultDoesNotDependOnTheRun) {
   const Json before = report();
-  run = {"scalar", 7, 1, 2, 3, 4, 5, 1000};
+  run = {"scalar", 7, 1, 2, 3, 4, 5, 6, 1000};
   const Json after = report();
   EXPECT_EQ(before["result"].dump(), after["result"].dump());
   EXPECT_NE(before["run"], after["run"]);
   EXPECT_EQ(after["run"]["threads"], 7);
-  EXPECT_EQ(after["run"]["seconds"]["write"], 5.0);
+  EXPECT_EQ(after["run"]["seconds"], (Json{{"read", 1.0},
+                                           {"mesh", 2.0},
+                                           {"build", 3.0},
+                                           {"form_factors", 4.0},
+                                           {"solve", 5.0},
+                                           {"write", 6.0}}));
   EXPECT_EQ(after["run"]["version"], "1.2.3");
 }
 
