@@ -6,7 +6,7 @@
 #include "radiosity/mesh/openmesh_subdivide.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/scene/read_scene.h"
-#include "raster/span_kernel.h"
+#include "raster/kernels.h"
 #include "tests/support/one_point.h"
 
 #include <algorithm>

@@ -1,56 +1,47 @@
 #include "raster/item_buffer.h"
 
 #include "raster/hash.h"
-#include "raster/span_kernel.h"
+
+#include <algorithm>
 
 namespace hemicube::raster {
 
 Status ItemBuffer::init() {
   // One vector more than the last row needs, for kernels that load past its end.
-  const std::size_t pixels = static_cast<std::size_t>(kRowPitch) * kMaxWindowSize + 16;
-  const std::size_t tiles = static_cast<std::size_t>(kTilesPerRow) * kTilesPerRow;
-  HC_TRY(items_.resize(pixels, kNoItem));
-  HC_TRY(depths_.resize(pixels));
-  HC_TRY(farthest_.resize(tiles));
-  return dirty_.resize(tiles);
+  const std::size_t pixels = kLead + static_cast<std::size_t>(kRowPitch) * kMaxWindowSize + 16;
+  HC_TRY(memory_.reserve_huge(pixels * (sizeof(Item) + sizeof(float))));
+  HC_TRY(memory_.resize(pixels * (sizeof(Item) + sizeof(float))));
+  items_ = reinterpret_cast<Item*>(memory_.data());
+  depths_ = reinterpret_cast<float*>(memory_.data() + pixels * sizeof(Item));
+  std::fill_n(items_, pixels, kNoItem);
+  std::fill_n(depths_, pixels, 0.0f);
+  HC_TRY(farthest_.resize(static_cast<std::size_t>(kTilesPerRow) * kTilesPerRow));
+  HC_TRY(dirty_.resize(kTilesPerRow));
+  HC_TRY(columns_.resize(kRowPitch));
+  HC_TRY(run_begins_.resize(kMaxWindowSize + 16));
+  return run_items_.resize(kMaxWindowSize + 16);
 }
 
 void ItemBuffer::begin(const Window& window) {
   HC_ASSERT(window.width > 0 && window.width <= kMaxWindowSize);
   HC_ASSERT(window.height > 0 && window.height <= kMaxWindowSize);
+  if (!clear_) {
+    const std::size_t used =
+        kLead + static_cast<std::size_t>(kRowPitch) * static_cast<std::size_t>(window_.height);
+    std::fill_n(items_, used, kNoItem);
+    std::fill_n(depths_, used, 0.0f);
+  }
+  clear_ = false;
   window_ = window;
-  const std::size_t used =
-      static_cast<std::size_t>(kRowPitch) * static_cast<std::size_t>(window.height);
-  for (std::size_t k = 0; k < used; ++k)
-    items_[k] = kNoItem;
-  for (std::size_t k = 0; k < used; ++k)
-    depths_[k] = 0.0f;
+  for (std::int32_t x = 0; x < kRowPitch; ++x)
+    columns_[static_cast<std::size_t>(x)] = static_cast<float>(window.x + x);
   farthest_.fill(0.0f);
   dirty_.fill(0);
-}
-
-void ItemBuffer::mark_drawn(const TileRange& tiles) noexcept {
-  for (std::int32_t y = tiles.y0; y <= tiles.y1; ++y)
-    for (std::int32_t x = tiles.x0; x <= tiles.x1; ++x)
-      dirty_[static_cast<std::size_t>(y * kTilesPerRow + x)] = 1;
-}
-
-bool ItemBuffer::hides(const TileRange& tiles, float nearest, const Kernels& kernels) noexcept {
-  for (std::int32_t y = tiles.y0; y <= tiles.y1; ++y)
-    for (std::int32_t x = tiles.x0; x <= tiles.x1; ++x) {
-      const auto tile = static_cast<std::size_t>(y * kTilesPerRow + x);
-      if (dirty_[tile] != 0) {
-        // Columns past the window's right edge stay 0 and keep the tile open: conservative.
-        const std::int32_t height = window_.height - y * kTileSize;
-        farthest_[tile] = kernels.smallest(
-            depths_.data() + static_cast<std::ptrdiff_t>(y) * kTileSize * kRowPitch + x * kTileSize,
-            kRowPitch, kTileSize, height < kTileSize ? height : kTileSize);
-        dirty_[tile] = 0;
-      }
-      if (!(nearest < farthest_[tile]))
-        return false;
-    }
-  return true;
+  planes_ = {items_ + kLead,  depths_ + kLead,
+             kRowPitch,       window.x,
+             window.y,        window.height,
+             columns_.data(), farthest_.data(),
+             dirty_.data(),   tile_shift(std::max(window.width, window.height))};
 }
 
 std::uint64_t hash_items(const ItemBuffer& buffer, std::uint64_t seed) {

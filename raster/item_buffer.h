@@ -1,17 +1,15 @@
 #pragma once
 
 #include "raster/face_view.h"
+#include "raster/kernels.h"
 #include "raster/memory.h"
 #include "raster/tile.h"
 #include "raster/types.h"
 
 namespace hemicube::raster {
 
-struct Kernels;
-
 /// The z-buffer of one window: per pixel the nearest item and its depth 1/z, in separate planes
-/// with padded rows, and per tile the depth of its farthest pixel. About 600 KiB at the largest
-/// window.
+/// with padded rows, and per tile the depth of its farthest pixel. About 560 KiB.
 class ItemBuffer {
 public:
   /// Allocates for windows up to kMaxWindowSize x kMaxWindowSize.
@@ -23,27 +21,52 @@ public:
   const Window& window() const noexcept { return window_; }
 
   /// Row y of the grid (window.y <= y < window.y + window.height); element 0 is pixel window.x.
-  Item* items(std::int32_t y) noexcept { return items_.data() + row_offset(y); }
-  const Item* items(std::int32_t y) const noexcept { return items_.data() + row_offset(y); }
-  float* depths(std::int32_t y) noexcept { return depths_.data() + row_offset(y); }
-  const float* depths(std::int32_t y) const noexcept { return depths_.data() + row_offset(y); }
+  const Item* items(std::int32_t y) const noexcept { return items_ + row_offset(y); }
+  const float* depths(std::int32_t y) const noexcept { return depths_ + row_offset(y); }
 
-  /// Says that pixels of these tiles (relative to the window, both ends included) may have changed.
-  void mark_drawn(const TileRange& tiles) noexcept;
+  /// The same for the kernels that draw.
+  const WindowPlanes& planes() noexcept { return planes_; }
 
-  /// True if every pixel of these tiles already holds something nearer than 1/z = nearest.
-  bool hides(const TileRange& tiles, float nearest, const Kernels& kernels) noexcept;
+  /// Runs of equal items in a row: run k is [begins[k], begins[k + 1]), and begins[count] is the
+  /// width.
+  struct Runs {
+    const std::int32_t* begins;
+    const Item* items;
+    std::int32_t count;
+  };
+
+  /// Calls visit(y, runs) for the rows of the window, y of the grid, ascending. Reads each pixel
+  /// once, and clears it while it is in cache: afterwards the buffer is empty.
+  template <typename Visit> void take_runs(const Kernels& kernels, Visit visit) {
+    for (std::int32_t y = window_.y; y < window_.y + window_.height; ++y) {
+      const std::size_t row = row_offset(y);
+      const std::int32_t count = kernels.take_runs(items_ + row, depths_ + row, window_.width,
+                                                   run_begins_.data(), run_items_.data());
+      run_begins_[static_cast<std::size_t>(count)] = window_.width;
+      visit(y, Runs{run_begins_.data(), run_items_.data(), count});
+    }
+    clear_ = true;
+  }
 
 private:
   std::size_t row_offset(std::int32_t y) const noexcept {
-    return static_cast<std::size_t>(y - window_.y) * kRowPitch;
+    return kLead + static_cast<std::size_t>(y - window_.y) * kRowPitch;
   }
 
+  /// Kernels look at the element before a row, and keep rows aligned.
+  static constexpr std::size_t kLead = 16;
+
   Window window_;
-  Buffer<Item> items_;
-  Buffer<float> depths_;
-  Buffer<float> farthest_;     ///< [tile]
-  Buffer<std::uint8_t> dirty_; ///< [tile] farthest_ is out of date
+  WindowPlanes planes_{};
+  bool clear_ = true;        ///< items and depths are as begin() leaves them
+  Buffer<std::byte> memory_; ///< of both planes: side by side they share a huge page
+  Item* items_ = nullptr;
+  float* depths_ = nullptr;
+  Buffer<float> columns_;       ///< [column of the window]
+  Buffer<float> farthest_;      ///< [tile row][kTilesPerRow]
+  Buffer<std::uint16_t> dirty_; ///< [tile row]
+  Buffer<std::int32_t> run_begins_;
+  Buffer<Item> run_items_;
 };
 
 /// Folds items and depths of the buffer's window into a running hash, row by row.

@@ -1,6 +1,9 @@
 #include "raster/memory.h"
 
 #include <cstdlib>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace hemicube {
 namespace {
@@ -8,7 +11,14 @@ namespace {
 constexpr std::size_t kAlignment = 64;
 
 void* allocate_aligned(std::size_t bytes) {
-  return std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
+  if (bytes % kHugePage != 0)
+    return std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
+  void* memory = std::aligned_alloc(kHugePage, bytes);
+#if defined(__linux__)
+  if (memory != nullptr)
+    madvise(memory, bytes, MADV_HUGEPAGE); // a wish: what comes of it changes nothing but time
+#endif
+  return memory;
 }
 
 void release_aligned(void* memory, std::size_t) {

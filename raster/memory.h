@@ -12,11 +12,14 @@
 namespace hemicube {
 
 /// Where all memory of the core comes from. An embedder may replace it before the first call.
-/// allocate returns `bytes` bytes aligned to 64, or null; release takes them back.
+/// allocate returns `bytes` bytes aligned to 64, or null; release takes them back. Memory that is
+/// walked at random is asked for in multiples of kHugePage: best aligned to that and backed by huge
+/// pages, as the default does on Linux.
 struct Allocator {
   void* (*allocate)(std::size_t bytes);
   void (*release)(void* memory, std::size_t bytes);
 };
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 void set_allocator(const Allocator& allocator) noexcept;
 
 /// Called with the text of a violated precondition; the default stops the program.
@@ -60,6 +63,14 @@ public:
     return reallocate(capacity);
   }
 
+  /// For what is walked at random and often: rounds up to huge pages, unless it is small.
+  Status reserve_huge(std::size_t capacity) noexcept {
+    constexpr std::size_t kPerPage = kHugePage / sizeof(T);
+    static_assert(kPerPage * sizeof(T) == kHugePage);
+    return reserve(capacity < kPerPage / 8 ? capacity
+                                           : (capacity + kPerPage - 1) / kPerPage * kPerPage);
+  }
+
   /// Gives back what growing took in advance.
   Status shrink_to_fit() noexcept { return size_ == capacity_ ? Status() : reallocate(size_); }
 
@@ -97,6 +108,7 @@ public:
     return append(values);
   }
 
+  void pop_back() noexcept { --size_; }
   void clear() noexcept { size_ = 0; }
   void fill(const T& value) noexcept {
     for (std::size_t i = 0; i < size_; ++i)
@@ -104,6 +116,7 @@ public:
   }
 
   std::size_t size() const noexcept { return size_; }
+  std::size_t capacity() const noexcept { return capacity_; }
   bool empty() const noexcept { return size_ == 0; }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }

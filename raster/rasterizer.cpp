@@ -1,67 +1,182 @@
 #include "raster/rasterizer.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace hemicube::raster {
 namespace {
 
-/// Testing more tiles than this costs more than drawing.
-constexpr std::int32_t kMaxTilesTested = 16;
+/// Nodes have at least 2 and mostly kBatch children; 2^31 polygons never nest deeper.
+constexpr std::size_t kMaxDepth = 32;
 
-/// True if all directions of the grid lie within the 90 degree window that ViewPolygon::faces is
-/// about.
-bool within_hemicube_face(const PixelGrid& grid) {
-  const double x1 = grid.x0 + (grid.width - 1) * grid.dx;
-  const double y1 = grid.y0 + (grid.height - 1) * grid.dy;
-  return std::fabs(grid.x0) < 1 && std::fabs(x1) < 1 && std::fabs(grid.y0) < 1 && std::fabs(y1) < 1;
+/// Single precision turns and projects a box with errors below 2^-21 of its distance; what is
+/// further from the eye than the scene is large cannot be reached.
+constexpr double kBoxSlack = 0x1p-19;
+
+void copy(const Vec3& from, double to[3]) {
+  for (int k = 0; k < 3; ++k)
+    to[k] = from[k];
+}
+
+void copy(const Vec3& from, float to[3]) {
+  for (int k = 0; k < 3; ++k)
+    to[k] = static_cast<float>(from[k]);
 }
 
 } // namespace
 
-Status Rasterizer::init(const Polygons& polygons, std::span<const Plane> planes,
-                        const Kernels& kernels) {
-  HC_ASSERT(planes.size() == polygons.count());
+Status Rasterizer::init(const PolygonTree& tree, const Kernels& kernels, Culling culling) {
+  tree_ = &tree;
   kernels_ = &kernels;
-  polygons_ = polygons;
-  planes_ = planes;
-  HC_TRY(setup_.init(polygons));
-  HC_TRY(edges_.init(polygons));
-  constexpr std::size_t kRows = kMaxWindowSize + kSpanPadding;
-  HC_TRY(span_begin_.resize(kRows));
-  HC_TRY(span_end_.resize(kRows));
-  return span_depth_.resize(kRows);
+  culling_ = culling;
+  const auto corners = static_cast<std::size_t>(tree.most_corners());
+  HC_TRY(edges_.resize(corners * 4 * kBatch));
+  HC_TRY(moved_corners_.resize(corners * 3 * kBatch));
+  batch_.edges = edges_.data();
+  HC_TRY(stack_.resize(kMaxDepth * kBatch));
+  stack_.clear();
+  return {};
 }
 
 void Rasterizer::begin(const View& view) {
-  setup_.prepare(polygons_, planes_, view);
+  view_ = view;
+  WindowProblem& p = polygon_problem_;
+  copy(view.eye, p.eye);
+  p.above_horizon = view.above_horizon ? 1 : 0;
+  p.draw_backs = view.draw_backs ? 1 : 0;
+  if (view.skip < tree_->polygon_count())
+    // Also its other side, and copies of it: where it is slightly bent their planes pass the eye.
+    tree_->plane(view.skip, p.skip_normal, p.skip_point);
+  else
+    copy(Vec3(std::numeric_limits<double>::quiet_NaN()), p.skip_normal);
+}
+
+void Rasterizer::set_window(Face face, const PixelGrid& grid, const Window& window) {
+  WindowProblem& p = polygon_problem_;
+  // The axes of the face: from_face of its right, up and forward.
+  const Vec3 axes[3] = {from_face(face, {1, 0, 0}), from_face(face, {0, 1, 0}),
+                        from_face(face, {0, 0, 1})};
+  Vec3 frame[3];
+  for (int k = 0; k < 3; ++k) {
+    frame[k] = view_.axis_x * axes[k].x + view_.axis_y * axes[k].y + view_.axis_z * axes[k].z;
+    copy(frame[k], p.frame[k]);
+  }
+  p.horizon_axis = face == Face::kTop ? 2 : 1;
+  p.x0 = grid.x0;
+  p.dx = grid.dx;
+  p.y0 = grid.y0;
+  p.dy = grid.dy;
+  p.columns_per_x = 1 / grid.dx;
+  p.rows_per_y = 1 / grid.dy;
+  p.x_begin = window.x;
+  p.x_end = window.x + window.width;
+  p.y_begin = window.y;
+  p.y_end = window.y + window.height;
+  p.x_reach = std::fabs(grid.x0) + grid.width * std::fabs(grid.dx);
+  p.y_reach = std::fabs(grid.y0) + grid.height * std::fabs(grid.dy);
+
+  NodeProblem& n = node_problem_;
+  const Vec3 eye = view_.eye - tree_->origin();
+  copy(eye, n.eye);
+  n.slack = static_cast<float>(kBoxSlack * (tree_->radius() + glm::length(eye)));
+  for (int k = 0; k < 3; ++k)
+    copy(frame[k], n.frame[k]);
+  const auto side = [&](int k, const Vec3& across, double at, double inwards) {
+    copy((across - frame[2] * at) * inwards, n.inward[k]);
+  };
+  side(0, frame[0], grid.x0 + (p.x_begin - 1) * grid.dx, grid.dx > 0 ? 1 : -1);
+  side(1, frame[0], grid.x0 + p.x_end * grid.dx, grid.dx > 0 ? -1 : 1);
+  side(2, frame[1], grid.y0 + (p.y_begin - 1) * grid.dy, grid.dy > 0 ? 1 : -1);
+  side(3, frame[1], grid.y0 + p.y_end * grid.dy, grid.dy > 0 ? -1 : 1);
+  copy(view_.axis_z, n.inward[4]);
+  n.plane_count = view_.above_horizon ? 5 : 4;
+  n.x_scale = static_cast<float>(p.columns_per_x);
+  n.x_offset = static_cast<float>(-grid.x0 * p.columns_per_x - p.x_begin);
+  n.y_scale = static_cast<float>(p.rows_per_y);
+  n.y_offset = static_cast<float>(-grid.y0 * p.rows_per_y - p.y_begin);
+  n.columns = static_cast<float>(window.width);
+  n.rows = static_cast<float>(window.height);
 }
 
 void Rasterizer::draw(Face face, const PixelGrid& grid, ItemBuffer* buffer) {
-  const auto face_bit = static_cast<std::uint8_t>(1u << static_cast<unsigned>(face));
-  const bool use_face_bit = within_hemicube_face(grid);
-  const Window& window = buffer->window();
-  const RowSpans spans = {span_begin_.data(), span_end_.data(), span_depth_.data()};
-  for (const ViewPolygon& polygon : setup_.drawn()) {
-    if (use_face_bit && (polygon.faces & face_bit) == 0)
-      continue;
-    FacePolygon shape;
-    if (!set_up_in_face(polygons_, setup_, polygon, face, grid, window, &edges_, &shape))
-      continue;
-    if (shape.tiles.count() <= kMaxTilesTested &&
-        buffer->hides(shape.tiles, shape.nearest, *kernels_))
-      continue;
-    kernels_->solve_rows(&shape.rows, &spans);
-    const std::int32_t top = shape.rows.row_begin;
-    const FillProblem fill = {buffer->items(top),
-                              buffer->depths(top),
-                              kRowPitch,
-                              window.x,
-                              shape.rows.row_end - top,
-                              shape.depth_per_pixel,
-                              polygon.id | (polygon.facing ? 0u : kBackFacing)};
-    kernels_->fill_rows(&fill, &spans);
-    buffer->mark_drawn(shape.tiles);
+  if (tree_->nodes().empty())
+    return;
+  set_window(face, grid, buffer->window());
+  if (culling_ == Culling::kOn) {
+    draw_front_to_back(buffer);
+    return;
   }
+  for (std::uint32_t c = 0; c < tree_->cluster_count(); ++c)
+    draw_cluster(c, Occlusion::kNone, buffer->planes());
+}
+
+void Rasterizer::push(const Visit& visit) {
+  // Room was made for every depth: no failure is possible.
+  HC_ASSERT(stack_.push_back(visit).ok());
+}
+
+void Rasterizer::open_node(const Node& node, std::int32_t tile_shift) {
+  NodeResult result;
+  kernels_->test_node(&node, &node_problem_, &result);
+  const std::size_t first = stack_.size();
+  for (std::uint32_t left = result.reached; left != 0; left &= left - 1) {
+    const int c = std::countr_zero(left);
+    if (result.x_begin[c] >= result.x_end[c] || result.y_begin[c] >= result.y_end[c])
+      continue;
+    const bool away = (result.away >> c & 1) != 0;
+    if (away && polygon_problem_.draw_backs == 0)
+      continue;
+    const TileRange tiles = {result.x_begin[c] >> tile_shift, result.y_begin[c] >> tile_shift,
+                             (result.x_end[c] - 1) >> tile_shift,
+                             (result.y_end[c] - 1) >> tile_shift};
+    push({node.child[c], node.leaf != 0, tiles, result.nearest[c]});
+    // The nearest last.
+    for (std::size_t k = stack_.size() - 1; k > first && stack_[k].nearest < stack_[k - 1].nearest;
+         --k)
+      std::swap(stack_[k], stack_[k - 1]);
+  }
+}
+
+void Rasterizer::draw_front_to_back(ItemBuffer* buffer) {
+  const WindowPlanes& planes = buffer->planes();
+  stack_.clear();
+  open_node(tree_->nodes()[0], planes.tile_shift);
+  while (!stack_.empty()) {
+    const Visit visit = stack_.back();
+    stack_.pop_back();
+    const Occlusion occlusion = kernels_->occlusion(&planes, &visit.tiles, visit.nearest);
+    if (occlusion == Occlusion::kFull)
+      continue;
+    if (!visit.is_cluster) {
+      open_node(tree_->nodes()[visit.index], planes.tile_shift);
+      continue;
+    }
+    draw_cluster(visit.index, occlusion, planes);
+    const auto columns =
+        static_cast<std::uint16_t>((2u << visit.tiles.x1) - (1u << visit.tiles.x0));
+    for (std::int32_t y = visit.tiles.y0; y <= visit.tiles.y1; ++y)
+      planes.dirty[y] |= columns;
+  }
+}
+
+void Rasterizer::draw_cluster(std::uint32_t index, Occlusion occlusion,
+                              const WindowPlanes& planes) {
+  const Cluster cluster = tree_->cluster(index);
+  std::uint32_t drawn =
+      kernels_->set_up(&cluster, &polygon_problem_, moved_corners_.data(), &batch_);
+  if (occlusion == Occlusion::kPartial)
+    for (std::uint32_t left = drawn; left != 0; left &= left - 1) {
+      const int p = std::countr_zero(left);
+      const TileRange tiles = {(batch_.x_begin[p] - planes.x) >> planes.tile_shift,
+                               (batch_.y_begin[p] - planes.y) >> planes.tile_shift,
+                               (batch_.x_end[p] - 1 - planes.x) >> planes.tile_shift,
+                               (batch_.y_end[p] - 1 - planes.y) >> planes.tile_shift};
+      if (kernels_->occlusion(&planes, &tiles, batch_.nearest[p]) == Occlusion::kFull)
+        drawn &= ~(1u << p);
+    }
+  kernels_->draw(&batch_, drawn, &planes);
 }
 
 } // namespace hemicube::raster

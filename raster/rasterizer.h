@@ -2,23 +2,25 @@
 
 #include "raster/face_view.h"
 #include "raster/item_buffer.h"
-#include "raster/polygon_setup.h"
-#include "raster/polygons.h"
-#include "raster/simd/dispatch.h"
+#include "raster/kernels.h"
+#include "raster/polygon_tree.h"
 
 namespace hemicube::raster {
 
-/// Draws polygons into item buffers. Re-entrant: one object per thread.
+/// Whether what cannot be seen is left out before it is drawn. The pixels are the same.
+enum class Culling : std::uint8_t { kOn, kOff };
+
+/// Draws polygons into item buffers. Re-entrant: one object per thread, a few KiB each.
 /// What a pixel gets is a function of the set of polygons and the view alone: the polygon whose
 /// projection covers the pixel centre with the largest 1/z > 0; among equals a facing one before
 /// one seen from the back, then the lowest id. Polygons reach from the eye plane to infinity:
 /// nothing is clipped and there is no near plane.
 class Rasterizer {
 public:
-  /// @param planes   from compute_planes(polygons); both must outlive the rasterizer
-  Status init(const Polygons& polygons, std::span<const Plane> planes, const Kernels& kernels);
+  /// @param tree  must outlive the rasterizer
+  Status init(const PolygonTree& tree, const Kernels& kernels, Culling culling = Culling::kOn);
 
-  /// Takes on a view: transforms the vertices and sets up the edges of all polygons.
+  /// Takes on a view.
   void begin(const View& view);
 
   /// Draws what the view shows in a face into the buffer's window (ItemBuffer::begin has cleared
@@ -26,13 +28,29 @@ public:
   void draw(Face face, const PixelGrid& grid, ItemBuffer* buffer);
 
 private:
+  /// A node or a cluster that the window may see.
+  struct Visit {
+    std::uint32_t index;
+    bool is_cluster;
+    TileRange tiles;
+    float nearest;
+  };
+
+  void set_window(Face face, const PixelGrid& grid, const Window& window);
+  void draw_front_to_back(ItemBuffer* buffer);
+  void open_node(const Node& node, std::int32_t tile_shift);
+  void push(const Visit& visit);
+  void draw_cluster(std::uint32_t index, Occlusion occlusion, const WindowPlanes& planes);
+
+  const PolygonTree* tree_ = nullptr;
   const Kernels* kernels_ = nullptr;
-  Polygons polygons_;
-  std::span<const Plane> planes_;
-  ViewSetup setup_;
-  EdgeScratch edges_;
-  Buffer<std::int32_t> span_begin_, span_end_; ///< [row of the window]
-  Buffer<float> span_depth_;
+  Culling culling_ = Culling::kOn;
+  View view_;
+  WindowProblem polygon_problem_{};
+  NodeProblem node_problem_{};
+  PolygonBatch batch_{};
+  Buffer<double> edges_, moved_corners_;
+  Buffer<Visit> stack_; ///< what is yet to be visited, the nearest last
 };
 
 } // namespace hemicube::raster

@@ -6,45 +6,45 @@
 
 namespace hemicube::radiosity {
 
-/// Sums weights by patch id. A hash table that is the identity while ids are below its size, so
-/// neighbours in a scene stay neighbours in memory; cleared by touching only what was used.
+/// Sums weights by patch id. A hash table that is the identity while ids are below its size: then
+/// neighbours in a scene are neighbours in memory, and entries come out in order without sorting.
 class RowAccumulator {
 public:
-  struct Entry {
-    std::uint32_t id;
-    std::uint32_t slot;
-    std::uint64_t weight;
-  };
+  /// @param id_count      ids are below it
+  /// @param most_entries  distinct ids added between two calls of take, at most
+  Status init(std::uint64_t id_count, std::uint64_t most_entries);
 
-  /// @param most_entries  distinct ids added between two calls of clear, at most
-  Status init(std::uint64_t most_entries);
-
+  /// @param weight  > 0
   void add(std::uint32_t id, std::uint64_t weight) noexcept {
     std::uint32_t slot = id & mask_;
-    while (slots_[slot] != kFree) {
-      Entry& entry = entries_[slots_[slot]];
-      if (entry.id == id) {
-        entry.weight += weight;
-        return;
+    while (ids_[slot] != id) {
+      if (ids_[slot] == kFree) {
+        ids_[slot] = id;
+        break;
       }
       slot = (slot + 1) & mask_;
     }
-    slots_[slot] = count_;
-    entries_[count_++] = {id, slot, weight};
+    weights_[slot] += weight;
+    touched_[slot / kBlock] = 1;
   }
 
-  /// What was added since the last clear, by ascending id. After it only clear may be called.
-  std::span<const Entry> sorted() noexcept;
-
-  void clear() noexcept;
+  /// Writes the ids that were added since the last call, ascending, and weight * unit for each, and
+  /// forgets them. Both arrays have room for one entry more than there are.
+  /// @return how many
+  std::size_t take(double unit, std::uint32_t* ids, float* values) noexcept;
 
 private:
   static constexpr std::uint32_t kFree = 0xffffffffu;
+  static constexpr std::uint32_t kBlock = 16;
+
+  std::size_t take_block(std::uint32_t first, double unit, std::uint32_t* ids,
+                         float* values) noexcept;
 
   std::uint32_t mask_ = 0;
-  std::uint32_t count_ = 0;
-  Buffer<std::uint32_t> slots_; ///< index of an entry, or kFree
-  Buffer<Entry> entries_;
+  bool in_order_ = true;          ///< slots are ids
+  Buffer<std::uint32_t> ids_;     ///< [slot] kFree if there is none
+  Buffer<std::uint64_t> weights_; ///< [slot]
+  Buffer<std::uint8_t> touched_;  ///< [slot / kBlock] 1 if the block may hold an entry
 };
 
 } // namespace hemicube::radiosity

@@ -9,13 +9,12 @@ namespace hemicube::radiosity {
 
 /// What all rows of a scene share. Built once, read by every worker.
 struct RowSetup {
-  raster::Polygons polygons;
-  Buffer<raster::Plane> planes;
+  raster::PolygonTree tree;
   DeltaFormFactors delta;
   const raster::Kernels* kernels = nullptr;
   bool hash_items = false;
 
-  Status init(const raster::Polygons& polygons_in, std::uint32_t resolution,
+  Status init(const raster::Polygons& polygons, std::uint32_t resolution,
               const raster::Kernels& kernels_in, bool hash_items_in);
 };
 
@@ -43,7 +42,6 @@ private:
   raster::Rasterizer rasterizer_;
   raster::ItemBuffer buffer_;
   RowAccumulator accumulator_;
-  Buffer<std::int32_t> breaks_;
   Buffer<std::uint32_t> columns_;
   Buffer<float> values_;
   std::uint64_t space_ = 0, back_side_ = 0; ///< units of 2^-48

@@ -25,9 +25,8 @@ double side_integral(double x, double y) {
 /// odd in x: what lies left of x is integral(1, y) + integral(x, y).
 template <typename Integral>
 Status fill_sums(std::uint32_t columns, std::uint32_t rows, double bottom, Integral integral,
-                 Buffer<std::uint64_t>* sums) {
+                 std::span<std::uint64_t> sums) {
   const double step = 2.0 / columns;
-  HC_TRY(sums->resize(std::size_t{columns} * rows + 1));
   Buffer<double> below; // [column edge] integral up to the lower edge of the row
   HC_TRY(below.resize(columns + 1));
   for (std::uint32_t i = 0; i <= columns; ++i)
@@ -41,13 +40,13 @@ Status fill_sums(std::uint32_t columns, std::uint32_t rows, double bottom, Integ
     for (std::uint32_t i = 0; i < columns; ++i) {
       const double in_row = (integral(-1 + i * step, top) + right_above) - (below[i] + right_below);
       const double before = (rows_before + in_row) * static_cast<double>(kFormFactorUnit);
-      (*sums)[at++] = static_cast<std::uint64_t>(before + 0.5);
+      sums[at++] = static_cast<std::uint64_t>(before + 0.5);
     }
     for (std::uint32_t i = 0; i <= columns; ++i)
       below[i] = integral(-1 + i * step, top);
   }
   const double all = 2 * (below[columns] - start) * static_cast<double>(kFormFactorUnit);
-  (*sums)[at] = static_cast<std::uint64_t>(all + 0.5);
+  sums[at] = static_cast<std::uint64_t>(all + 0.5);
   return {};
 }
 
@@ -58,11 +57,17 @@ Status DeltaFormFactors::init(std::uint32_t resolution) {
     return Status::error(StatusCode::kInvalidArgument, "resolution ", resolution,
                          " is not an even number from ", kMinResolution, " to ", kMaxResolution);
   resolution_ = resolution;
-  HC_TRY(fill_sums(resolution, resolution, -1, top_integral, &top_));
-  HC_TRY(fill_sums(resolution, resolution / 2, 0, side_integral, &side_));
+  const std::size_t pixels = std::size_t{resolution} * resolution;
+  side_begin_ = pixels + 1;
+  HC_TRY(sums_.reserve_huge(side_begin_ + pixels / 2 + 1));
+  HC_TRY(sums_.resize(side_begin_ + pixels / 2 + 1));
+  const std::span<std::uint64_t> top = sums_.span().first(side_begin_);
+  const std::span<std::uint64_t> side = sums_.span().subspan(side_begin_);
+  HC_TRY(fill_sums(resolution, resolution, -1, top_integral, top));
+  HC_TRY(fill_sums(resolution, resolution / 2, 0, side_integral, side));
   // Four rounded sides leave the top, also rounded, at most three units off: its last pixel takes
   // them.
-  top_[top_.size() - 1] = kFormFactorUnit - 4 * side_[side_.size() - 1];
+  top.back() = kFormFactorUnit - 4 * side.back();
   return {};
 }
 

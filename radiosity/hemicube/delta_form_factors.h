@@ -29,7 +29,8 @@ public:
   /// Sums before each pixel of a face, row-major over raster::hemicube_grid, and one past the last:
   /// the run of pixels [a, b) weighs sums[b] - sums[a].
   std::span<const std::uint64_t> sums(raster::Face face) const noexcept {
-    return face == raster::Face::kTop ? top_ : side_;
+    return face == raster::Face::kTop ? sums_.span().first(side_begin_)
+                                      : sums_.span().subspan(side_begin_);
   }
 
   /// The weight of one pixel, in units of 2^-48.
@@ -40,7 +41,8 @@ public:
 
 private:
   std::uint32_t resolution_ = 0;
-  Buffer<std::uint64_t> top_, side_;
+  std::size_t side_begin_ = 0;
+  Buffer<std::uint64_t> sums_; ///< the top's, then a side's
 };
 
 } // namespace hemicube::radiosity

@@ -92,11 +92,10 @@ Status render_hemicube(const PatchSet& patches, std::uint32_t patch, std::uint32
   if (patch >= patches.patch_count())
     return Status::error(StatusCode::kInvalidArgument, "patch ", patch,
                          " does not exist; the last is ", patches.patch_count() - 1);
-  const raster::Polygons polygons = polygons_of(patches);
-  Buffer<raster::Plane> planes;
-  HC_TRY(raster::compute_planes(polygons, &planes));
+  raster::PolygonTree tree;
+  HC_TRY(tree.build(polygons_of(patches)));
   raster::Rasterizer rasterizer;
-  HC_TRY(rasterizer.init(polygons, planes, kernels));
+  HC_TRY(rasterizer.init(tree, kernels));
   raster::ItemBuffer buffer;
   HC_TRY(buffer.init());
   rasterizer.begin(hemicube_view(patches, patch));

@@ -108,11 +108,10 @@ Status draw_picture(const Scene& scene, const PatchSet& patches, const Solution&
   HC_TRY(camera_view(camera, kSamples, &view));
   HC_TRY(init_picture(camera, picture));
 
-  const raster::Polygons polygons = polygons_of(patches);
-  Buffer<raster::Plane> planes;
-  HC_TRY(raster::compute_planes(polygons, &planes));
+  raster::PolygonTree tree;
+  HC_TRY(tree.build(polygons_of(patches)));
   raster::Rasterizer rasterizer;
-  HC_TRY(rasterizer.init(polygons, planes, kernels));
+  HC_TRY(rasterizer.init(tree, kernels));
   raster::ItemBuffer buffer;
   HC_TRY(buffer.init());
   rasterizer.begin(view.view);

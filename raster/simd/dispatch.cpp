@@ -1,6 +1,6 @@
 #include "raster/simd/dispatch.h"
 
-#include "raster/span_kernel.h"
+#include "raster/kernels.h"
 
 #include <cstdlib>
 
@@ -9,20 +9,28 @@ namespace hemicube::raster {
 extern const Kernels kScalarKernels;
 
 #if defined(__x86_64__)
+extern const Kernels kSse41Kernels;
 extern const Kernels kAvx2Kernels;
+extern const Kernels kAvx512Kernels;
 
 namespace {
 
 bool runs_here(const Kernels& kernels) {
-  return &kernels != &kAvx2Kernels || __builtin_cpu_supports("avx2");
+  if (&kernels == &kAvx512Kernels)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  if (&kernels == &kAvx2Kernels)
+    return __builtin_cpu_supports("avx2");
+  return &kernels != &kSse41Kernels || __builtin_cpu_supports("sse4.1");
 }
 
-const Kernels* const kAllKernels[] = {&kAvx2Kernels, &kScalarKernels};
+const Kernels* const kAllKernels[] = {&kAvx512Kernels, &kAvx2Kernels, &kSse41Kernels,
+                                      &kScalarKernels};
 
 } // namespace
 
 std::string_view kernel_names() noexcept {
-  return "avx2, scalar";
+  return "avx512, avx2, sse41, scalar";
 }
 
 #else

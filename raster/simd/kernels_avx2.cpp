@@ -1,4 +1,4 @@
-#include "raster/span_kernel.h"
+#include "raster/kernels.h"
 
 #if defined(__x86_64__)
 
@@ -32,8 +32,8 @@ namespace avx2 {
 namespace hemicube::raster {
 
 extern const Kernels kAvx2Kernels;
-const Kernels kAvx2Kernels = {"avx2", avx2::solve_rows, avx2::fill_rows, avx2::smallest,
-                              avx2::run_breaks};
+const Kernels kAvx2Kernels = {"avx2",     avx2::test_node, avx2::set_up,
+                              avx2::draw, avx2::occlusion, avx2::take_runs};
 
 } // namespace hemicube::raster
 

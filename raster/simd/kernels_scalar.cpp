@@ -1,4 +1,4 @@
-#include "raster/span_kernel.h"
+#include "raster/kernels.h"
 
 namespace hemicube::raster {
 namespace scalar {
@@ -10,7 +10,7 @@ namespace scalar {
 } // namespace scalar
 
 extern const Kernels kScalarKernels;
-const Kernels kScalarKernels = {"scalar", scalar::solve_rows, scalar::fill_rows, scalar::smallest,
-                                scalar::run_breaks};
+const Kernels kScalarKernels = {"scalar",     scalar::test_node, scalar::set_up,
+                                scalar::draw, scalar::occlusion, scalar::take_runs};
 
 } // namespace hemicube::raster

@@ -92,7 +92,7 @@ TEST(Golden, HashesAreThoseOnFile) {
     return;
   }
   for (const Golden& golden : goldens)
-    for (const char* isa : {"scalar", "avx2"})
+    for (const char* isa : {"scalar", "sse41", "avx2", "avx512"})
       for (const std::uint32_t threads : {1u, 2u, 3u, 7u}) {
         const raster::Kernels* kernels = raster::kernels_by_name(isa);
         const bool once = std::string(isa) == "scalar" && threads != 2; // slow: once is enough

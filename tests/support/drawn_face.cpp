@@ -14,9 +14,10 @@ bool same_bits(const DrawnFace& a, const DrawnFace& b) {
           std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(float)) == 0);
 }
 
-Drawer::Drawer(const raster::Polygons& polygons, const raster::Kernels& kernels) {
-  require(raster::compute_planes(polygons, &planes_));
-  require(rasterizer_.init(polygons, planes_.span(), kernels));
+Drawer::Drawer(const raster::Polygons& polygons, const raster::Kernels& kernels,
+               raster::Culling culling) {
+  require(tree_.build(polygons));
+  require(rasterizer_.init(tree_, kernels, culling));
   require(buffer_.init());
 }
 

@@ -2,7 +2,7 @@
 
 #include "raster/face_view.h"
 #include "raster/item_buffer.h"
-#include "raster/polygons.h"
+#include "raster/polygon_tree.h"
 #include "raster/rasterizer.h"
 #include "raster/simd/dispatch.h"
 
@@ -26,10 +26,11 @@ struct DrawnFace {
 /// Bit for bit.
 bool same_bits(const DrawnFace& a, const DrawnFace& b);
 
-/// A rasterizer with its planes and its buffer; the polygons' arrays must outlive it.
+/// A rasterizer with its tree and its buffer.
 class Drawer {
 public:
-  Drawer(const raster::Polygons& polygons, const raster::Kernels& kernels);
+  Drawer(const raster::Polygons& polygons, const raster::Kernels& kernels,
+         raster::Culling culling = raster::Culling::kOn);
 
   void begin(const raster::View& view) { rasterizer_.begin(view); }
 
@@ -39,7 +40,7 @@ public:
                  int window_height = raster::kMaxWindowSize);
 
 private:
-  Buffer<raster::Plane> planes_;
+  raster::PolygonTree tree_;
   raster::Rasterizer rasterizer_;
   raster::ItemBuffer buffer_;
 };

@@ -3,9 +3,9 @@
 #include "radiosity/form_factor/row_accumulator.h"
 #include "raster/fp_environment.h"
 #include "raster/hash.h"
+#include "raster/kernels.h"
 #include "raster/memory.h"
 #include "raster/simd/dispatch.h"
-#include "raster/span_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -93,27 +93,40 @@ TEST(Dispatch, EnvironmentForcesKernels) {
   unsetenv("HEMICUBE_ISA");
 }
 
-TEST(RowAccumulator, SumsLikeAMapThroughCollisions) {
+/// Ids are multiples of `step` below 100 * step.
+void sum_like_a_map(std::uint64_t id_count, std::uint32_t step) {
   radiosity::RowAccumulator accumulator;
-  ASSERT_TRUE(accumulator.init(100).ok());
+  ASSERT_TRUE(accumulator.init(id_count, 100).ok());
   std::mt19937 random(3);
+  std::vector<std::uint32_t> ids(101);
+  std::vector<float> values(101);
   for (int round = 0; round < 20; ++round) {
     std::map<std::uint32_t, std::uint64_t> expected;
-    for (int k = 0; k < 1000; ++k) {
-      const auto id = static_cast<std::uint32_t>(random() % 100 * 256); // all collide
-      expected[id] += id + 1;
-      accumulator.add(id, id + 1);
+    for (int k = 0; k < 40 + 50 * round; ++k) {
+      const auto id = static_cast<std::uint32_t>(random() % 100 * step);
+      const auto weight = static_cast<std::uint64_t>(random() % 1000 + 1);
+      expected[id] += weight;
+      accumulator.add(id, weight);
     }
-    const auto sorted = accumulator.sorted();
-    ASSERT_EQ(sorted.size(), expected.size());
+    const std::size_t count = accumulator.take(0.5, ids.data(), values.data());
+    ASSERT_EQ(count, expected.size());
     std::size_t at = 0;
     for (const auto& [id, weight] : expected) {
-      EXPECT_EQ(sorted[at].id, id);
-      EXPECT_EQ(sorted[at].weight, weight);
+      EXPECT_EQ(ids[at], id);
+      EXPECT_EQ(values[at], 0.5f * static_cast<float>(weight));
       ++at;
     }
-    accumulator.clear();
   }
+  EXPECT_EQ(accumulator.take(1, ids.data(), values.data()), 0u);
+}
+
+TEST(RowAccumulator, SumsLikeAMapInOrder) {
+  sum_like_a_map(100 * 7, 7);
+  sum_like_a_map(100 * 997, 997);
+}
+
+TEST(RowAccumulator, SumsLikeAMapThroughCollisions) {
+  sum_like_a_map(std::uint64_t{1} << 31, 1u << 20); // more ids than slots, all in the same slot
 }
 
 TEST(FormFactorMatrix, GivesRowsBack) {

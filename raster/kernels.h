@@ -1,0 +1,131 @@
+#pragma once
+
+// The seam between the algorithm and the instruction sets: plain data and function pointers.
+// Included by the ISA files, so it includes nothing but <stdint.h>.
+#include <stdint.h>
+
+namespace hemicube::raster {
+
+/// Polygons are handled 16 at a time, and so are the children of a node: one vector of floats on
+/// the widest instruction set.
+enum { kBatch = 16 };
+
+/// Boxes of up to kBatch children, relative to the origin of their tree.
+struct alignas(64) Node {
+  float center[3][kBatch];
+  float half[3][kBatch];  ///< half extents; negative where there is no child
+  float axis[3][kBatch];  ///< mean unit normal of the fronts of a cluster's polygons
+  float spread[kBatch];   ///< how far a unit normal can be from the axis; 2 = anything
+  uint32_t child[kBatch]; ///< index of a node, or of a cluster if `leaf`
+  int32_t count;
+  int32_t leaf;
+};
+
+/// What a window of a face sees, for boxes: single precision, every bound widened by what rounding
+/// can do.
+struct NodeProblem {
+  float eye[3];        ///< relative to the origin of the tree
+  float slack;         ///< boxes are grown by this on all sides
+  float inward[5][3];  ///< planes through the eye, normals inwards: 4 window sides, the horizon
+  int32_t plane_count; ///< 4 without a horizon
+  float frame[3][3];   ///< right, up, forward
+  float x_scale, x_offset, y_scale, y_offset; ///< column of the window = x/z * scale + offset
+  float columns, rows;                        ///< of the window
+};
+
+/// What a node's children may touch of a window.
+struct alignas(64) NodeResult {
+  float nearest[kBatch];                  ///< 1/z is nowhere larger
+  int32_t x_begin[kBatch], x_end[kBatch]; ///< pixels of the window
+  int32_t y_begin[kBatch], y_end[kBatch];
+  uint32_t reached; ///< bit c: child c may touch the window
+  uint32_t away;    ///< bit c: all of child c's polygons are seen from the back
+};
+
+/// Up to kBatch polygons, in double.
+struct Cluster {
+  const double* corners; ///< [corner][axis][kBatch]; polygons with fewer corners repeat their last
+  const double* planes;  ///< [normal x y z, point x y z, -1 if Plane::reversed, else 1][kBatch]
+  const uint32_t* ids;   ///< [kBatch]
+  int32_t corner_count;
+  uint32_t present; ///< bit p: there is a polygon p
+};
+
+/// A window of a face and the frame it looks along, for polygons.
+struct WindowProblem {
+  double eye[3];
+  double frame[3][3];                    ///< right, up, forward
+  double skip_normal[3], skip_point[3];  ///< the plane left out; NaN = none
+  double x0, dx, y0, dy;                 ///< PixelGrid
+  double columns_per_x, rows_per_y;      ///< 1/dx, 1/dy
+  double x_begin, x_end, y_begin, y_end; ///< pixels of the grid
+  double x_reach, y_reach; ///< bounds of |x| and |y| over the grid, for the error of a depth
+  int32_t above_horizon, horizon_axis; ///< axis of the frame that is the receiver's normal
+  int32_t draw_backs;
+};
+
+/// Polygons as one window of a face sees them: all that drawing needs. Every floating-point
+/// decision about coverage and depth is made here, once, from the same numbers for both sides of an
+/// edge.
+struct PolygonBatch {
+  /// [corner][left slope, left offset, right slope, right offset][kBatch]: a row y lies between the
+  /// largest left and the smallest right slope * y + offset.
+  double* edges;
+  int32_t corner_count;
+  alignas(64) int32_t x_begin[kBatch], x_end[kBatch]; ///< pixels of the grid
+  alignas(64) int32_t y_begin[kBatch], y_end[kBatch];
+  alignas(64) double depth_per_row[kBatch], depth_at_origin[kBatch]; ///< 1/z of pixel (0, y)
+  alignas(64) float depth_per_pixel[kBatch];
+  alignas(64) float nearest[kBatch]; ///< 1/z of a pixel is cut off here
+  alignas(64) uint32_t item[kBatch];
+};
+
+/// The planes of one window, and the farthest depth of each tile.
+struct WindowPlanes {
+  uint32_t* items; ///< pixel (x, y) of the window at y * pitch + x
+  float* depths;
+  int32_t pitch;
+  int32_t x, y; ///< of the grid: the window's corner
+  int32_t height;
+  const float* columns; ///< [column of the window, and 16 more] its column in the grid
+  float* farthest;    ///< [tile row][kTilesPerRow]
+  uint16_t* dirty;    ///< [tile row] bit x: farthest is out of date
+  int32_t tile_shift; ///< log2 of the tile size
+};
+
+/// Tiles x0..x1 by y0..y1 of a window, both ends included.
+struct TileRange {
+  int32_t x0, y0, x1, y1;
+};
+
+/// What is already drawn over some tiles.
+enum class Occlusion : int32_t { kNone, kPartial, kFull };
+
+/// The kernels of one instruction set. Every one gives the same bits on every instruction set.
+struct Kernels {
+  const char* name;
+
+  void (*test_node)(const Node* node, const NodeProblem* problem, NodeResult* result);
+
+  /// Sets up a cluster's polygons in a window.
+  /// @return bit p: polygon p may cover a pixel
+  uint32_t (*set_up)(const Cluster* cluster, const WindowProblem* problem, double* scratch,
+                     PolygonBatch* batch);
+
+  /// Draws the polygons of a batch whose bits are set. A pixel is taken over if 1/z is larger, or
+  /// equal and the item is lower. Vectors may touch, and put back unchanged, up to 15 pixels past a
+  /// row's end.
+  void (*draw)(const PolygonBatch* batch, uint32_t polygons, const WindowPlanes* planes);
+
+  /// Whether all, or some, of the tiles already hold only what is nearer than 1/z = nearest.
+  Occlusion (*occlusion)(const WindowPlanes* planes, const TileRange* tiles, float nearest);
+
+  /// Splits a row of items into runs of equal items and then clears the row: items to kNoItem,
+  /// depths to 0. Writes where each run begins, the first at 0, and what it holds; both arrays have
+  /// room for 16 more than `count`. Element -1 of the row is read.
+  /// @return the number of runs
+  int32_t (*take_runs)(uint32_t* items, float* depths, int32_t count, int32_t* begins,
+                       uint32_t* run_items);
+};
+
+} // namespace hemicube::raster
