@@ -88,9 +88,9 @@ struct WindowPlanes {
   int32_t x, y; ///< of the grid: the window's corner
   int32_t height;
   const float* columns; ///< [column of the window, and 16 more] its column in the grid
-  float* farthest;    ///< [tile row][kTilesPerRow]
-  uint16_t* dirty;    ///< [tile row] bit x: farthest is out of date
-  int32_t tile_shift; ///< log2 of the tile size
+  float* farthest;      ///< [tile row][kTilesPerRow]
+  uint16_t* dirty;      ///< [tile row] bit x: farthest is out of date
+  int32_t tile_shift;   ///< log2 of the tile size
 };
 
 /// Tiles x0..x1 by y0..y1 of a window, both ends included.
@@ -107,10 +107,16 @@ struct Kernels {
 
   void (*test_node)(const Node* node, const NodeProblem* problem, NodeResult* result);
 
-  /// Sets up a cluster's polygons in a window.
+  /// Moves a cluster's corners into the frame of a window, [corner][axis][kBatch], and finds which
+  /// pixels its polygons can touch (x and y bounds and `nearest` of the batch).
   /// @return bit p: polygon p may cover a pixel
-  uint32_t (*set_up)(const Cluster* cluster, const WindowProblem* problem, double* scratch,
-                     PolygonBatch* batch);
+  uint32_t (*find_bounds)(const Cluster* cluster, const WindowProblem* problem, double* moved,
+                          PolygonBatch* batch);
+
+  /// Finds edges, depth planes and items, all else of the batch, of the polygons whose bits are
+  /// set.
+  void (*set_up)(const Cluster* cluster, const WindowProblem* problem, const double* moved,
+                 uint32_t polygons, PolygonBatch* batch);
 
   /// Draws the polygons of a batch whose bits are set. A pixel is taken over if 1/z is larger, or
   /// equal and the item is lower. Vectors may touch, and put back unchanged, up to 15 pixels past a

@@ -25,6 +25,19 @@ public:
     return {planes + kPlaneNumbers * kBatch, planes, &ids_[std::size_t{index} * kBatch],
             c.corner_count, c.present};
   }
+  /// Asks for a node or a cluster before it is needed.
+  void prefetch(std::uint32_t index, bool is_cluster) const noexcept {
+    const char* from = reinterpret_cast<const char*>(&nodes_[is_cluster ? 0 : index]);
+    std::size_t bytes = sizeof(Node);
+    if (is_cluster) {
+      const ClusterRecord& c = clusters_[index];
+      from = reinterpret_cast<const char*>(numbers_.data() + c.numbers);
+      bytes = (kPlaneNumbers + 12) * kBatch * sizeof(double);
+    }
+    for (std::size_t k = 0; k < bytes; k += 64)
+      __builtin_prefetch(from + k);
+  }
+
   /// Corners of the polygon with the most, at least 3.
   std::int32_t most_corners() const noexcept { return most_corners_; }
 

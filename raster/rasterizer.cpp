@@ -8,12 +8,12 @@
 namespace hemicube::raster {
 namespace {
 
-/// Nodes have at least 2 and mostly kBatch children; 2^31 polygons never nest deeper.
-constexpr std::size_t kMaxDepth = 32;
-
 /// Single precision turns and projects a box with errors below 2^-21 of its distance; what is
 /// further from the eye than the scene is large cannot be reached.
 constexpr double kBoxSlack = 0x1p-19;
+
+/// Backs are drawn as if they lay farther away: the fronts of the same things mostly hide them.
+constexpr float kBacksLater = 0.25f;
 
 void copy(const Vec3& from, double to[3]) {
   for (int k = 0; k < 3; ++k)
@@ -35,9 +35,7 @@ Status Rasterizer::init(const PolygonTree& tree, const Kernels& kernels, Culling
   HC_TRY(edges_.resize(corners * 4 * kBatch));
   HC_TRY(moved_corners_.resize(corners * 3 * kBatch));
   batch_.edges = edges_.data();
-  HC_TRY(stack_.resize(kMaxDepth * kBatch));
-  stack_.clear();
-  return {};
+  return queue_.init();
 }
 
 void Rasterizer::begin(const View& view) {
@@ -105,22 +103,18 @@ void Rasterizer::draw(Face face, const PixelGrid& grid, ItemBuffer* buffer) {
     return;
   set_window(face, grid, buffer->window());
   if (culling_ == Culling::kOn) {
-    draw_front_to_back(buffer);
+    draw_front_to_back(buffer->planes());
     return;
   }
   for (std::uint32_t c = 0; c < tree_->cluster_count(); ++c)
     draw_cluster(c, Occlusion::kNone, buffer->planes());
 }
 
-void Rasterizer::push(const Visit& visit) {
-  // Room was made for every depth: no failure is possible.
-  HC_ASSERT(stack_.push_back(visit).ok());
-}
-
-void Rasterizer::open_node(const Node& node, std::int32_t tile_shift) {
+/// Calls take(visit) for the children that the window may see.
+template <typename Take>
+void Rasterizer::open_node(const Node& node, std::int32_t tile_shift, Take take) {
   NodeResult result;
   kernels_->test_node(&node, &node_problem_, &result);
-  const std::size_t first = stack_.size();
   for (std::uint32_t left = result.reached; left != 0; left &= left - 1) {
     const int c = std::countr_zero(left);
     if (result.x_begin[c] >= result.x_end[c] || result.y_begin[c] >= result.y_end[c])
@@ -131,41 +125,49 @@ void Rasterizer::open_node(const Node& node, std::int32_t tile_shift) {
     const TileRange tiles = {result.x_begin[c] >> tile_shift, result.y_begin[c] >> tile_shift,
                              (result.x_end[c] - 1) >> tile_shift,
                              (result.y_end[c] - 1) >> tile_shift};
-    push({node.child[c], node.leaf != 0, tiles, result.nearest[c]});
-    // The nearest last.
-    for (std::size_t k = stack_.size() - 1; k > first && stack_[k].nearest < stack_[k - 1].nearest;
-         --k)
-      std::swap(stack_[k], stack_[k - 1]);
+    take(Visit{node.child[c], node.leaf != 0, away, tiles, result.nearest[c]});
   }
 }
 
-void Rasterizer::draw_front_to_back(ItemBuffer* buffer) {
-  const WindowPlanes& planes = buffer->planes();
-  stack_.clear();
-  open_node(tree_->nodes()[0], planes.tile_shift);
-  while (!stack_.empty()) {
-    const Visit visit = stack_.back();
-    stack_.pop_back();
-    const Occlusion occlusion = kernels_->occlusion(&planes, &visit.tiles, visit.nearest);
-    if (occlusion == Occlusion::kFull)
-      continue;
-    if (!visit.is_cluster) {
-      open_node(tree_->nodes()[visit.index], planes.tile_shift);
-      continue;
-    }
-    draw_cluster(visit.index, occlusion, planes);
-    const auto columns =
-        static_cast<std::uint16_t>((2u << visit.tiles.x1) - (1u << visit.tiles.x0));
-    for (std::int32_t y = visit.tiles.y0; y <= visit.tiles.y1; ++y)
-      planes.dirty[y] |= columns;
+void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
+  const double farthest = tree_->radius() + glm::length(view_.eye - tree_->origin());
+  queue_.begin(static_cast<float>(1 / farthest));
+  const auto push = [&](const Visit& visit) {
+    queue_.push(visit, visit.is_away ? visit.nearest * kBacksLater : visit.nearest);
+  };
+  open_node(tree_->nodes()[0], planes.tile_shift, push);
+  while (!queue_.empty()) {
+    const Visit visit = queue_.pop();
+    if (!queue_.empty())
+      tree_->prefetch(queue_.front().index, queue_.front().is_cluster);
+    if (visit.is_cluster || queue_.room() < kBatch)
+      draw_visit(visit, planes);
+    else if (kernels_->occlusion(&planes, &visit.tiles, visit.nearest) != Occlusion::kFull)
+      open_node(tree_->nodes()[visit.index], planes.tile_shift, push);
   }
+}
+
+/// Draws a cluster, or all of a node.
+void Rasterizer::draw_visit(const Visit& visit, const WindowPlanes& planes) {
+  const Occlusion occlusion = kernels_->occlusion(&planes, &visit.tiles, visit.nearest);
+  if (occlusion == Occlusion::kFull)
+    return;
+  if (!visit.is_cluster) {
+    open_node(tree_->nodes()[visit.index], planes.tile_shift,
+              [&](const Visit& child) { draw_visit(child, planes); });
+    return;
+  }
+  draw_cluster(visit.index, occlusion, planes);
+  const auto columns = static_cast<std::uint16_t>((2u << visit.tiles.x1) - (1u << visit.tiles.x0));
+  for (std::int32_t y = visit.tiles.y0; y <= visit.tiles.y1; ++y)
+    planes.dirty[y] |= columns;
 }
 
 void Rasterizer::draw_cluster(std::uint32_t index, Occlusion occlusion,
                               const WindowPlanes& planes) {
   const Cluster cluster = tree_->cluster(index);
   std::uint32_t drawn =
-      kernels_->set_up(&cluster, &polygon_problem_, moved_corners_.data(), &batch_);
+      kernels_->find_bounds(&cluster, &polygon_problem_, moved_corners_.data(), &batch_);
   if (occlusion == Occlusion::kPartial)
     for (std::uint32_t left = drawn; left != 0; left &= left - 1) {
       const int p = std::countr_zero(left);
@@ -176,6 +178,7 @@ void Rasterizer::draw_cluster(std::uint32_t index, Occlusion occlusion,
       if (kernels_->occlusion(&planes, &tiles, batch_.nearest[p]) == Occlusion::kFull)
         drawn &= ~(1u << p);
     }
+  kernels_->set_up(&cluster, &polygon_problem_, moved_corners_.data(), drawn, &batch_);
   kernels_->draw(&batch_, drawn, &planes);
 }
 

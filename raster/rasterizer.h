@@ -4,6 +4,7 @@
 #include "raster/item_buffer.h"
 #include "raster/kernels.h"
 #include "raster/polygon_tree.h"
+#include "raster/visit_queue.h"
 
 namespace hemicube::raster {
 
@@ -28,18 +29,10 @@ public:
   void draw(Face face, const PixelGrid& grid, ItemBuffer* buffer);
 
 private:
-  /// A node or a cluster that the window may see.
-  struct Visit {
-    std::uint32_t index;
-    bool is_cluster;
-    TileRange tiles;
-    float nearest;
-  };
-
   void set_window(Face face, const PixelGrid& grid, const Window& window);
-  void draw_front_to_back(ItemBuffer* buffer);
-  void open_node(const Node& node, std::int32_t tile_shift);
-  void push(const Visit& visit);
+  void draw_front_to_back(const WindowPlanes& planes);
+  void draw_visit(const Visit& visit, const WindowPlanes& planes);
+  template <typename Take> void open_node(const Node& node, std::int32_t tile_shift, Take take);
   void draw_cluster(std::uint32_t index, Occlusion occlusion, const WindowPlanes& planes);
 
   const PolygonTree* tree_ = nullptr;
@@ -50,7 +43,7 @@ private:
   NodeProblem node_problem_{};
   PolygonBatch batch_{};
   Buffer<double> edges_, moved_corners_;
-  Buffer<Visit> stack_; ///< what is yet to be visited, the nearest last
+  VisitQueue queue_;
 };
 
 } // namespace hemicube::raster

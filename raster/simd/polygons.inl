@@ -30,7 +30,7 @@ struct CornerSummary {
   N some_in_front, all_in_front, some_above;
 };
 
-/// Moves corners into the frame of the window: [corner][axis][kDoubles].
+/// Moves corners into the frame of the window: [corner][axis][kBatch].
 static inline CornerSummary move_corners(const double* corners, int32_t corner_count,
                                          const WindowProblem* w, double* moved) {
   const D zero = d_set(0), one = d_set(1);
@@ -46,7 +46,7 @@ static inline CornerSummary move_corners(const double* corners, int32_t corner_c
     for (int axis = 0; axis < 3; ++axis) {
       v[axis] = d_dot(x, y, z, d_set(w->frame[axis][0]), d_set(w->frame[axis][1]),
                       d_set(w->frame[axis][2]));
-      d_store(moved + axis * kDoubles, v[axis]);
+      d_store(moved + axis * kBatch, v[axis]);
     }
     // In this order the sum is the same for every face of a hemicube.
     const D height_squared = d_mul(v[up], v[up]);
@@ -69,7 +69,7 @@ static inline CornerSummary move_corners(const double* corners, int32_t corner_c
     s.y_low = d_min(row, s.y_low);
     s.y_high = d_max(row, s.y_high);
     corners += 3 * kBatch;
-    moved += 3 * kDoubles;
+    moved += 3 * kBatch;
   }
   return s;
 }
@@ -78,11 +78,11 @@ static inline CornerSummary move_corners(const double* corners, int32_t corner_c
 static inline N beyond_a_side(const double* moved, int32_t corner_count, const WindowProblem* w) {
   const D zero = d_set(0);
   N left = n_not(n_none()), right = left, below = left, above = left;
-  for (int32_t c = 0; c < corner_count; ++c, moved += 3 * kDoubles) {
-    const D z = d_load(moved + 2 * kDoubles);
+  for (int32_t c = 0; c < corner_count; ++c, moved += 3 * kBatch) {
+    const D z = d_load(moved + 2 * kBatch);
     const D column = d_mul(d_sub(d_load(moved), d_mul(z, d_set(w->x0))), d_set(w->columns_per_x));
     const D row =
-        d_mul(d_sub(d_load(moved + kDoubles), d_mul(z, d_set(w->y0))), d_set(w->rows_per_y));
+        d_mul(d_sub(d_load(moved + kBatch), d_mul(z, d_set(w->y0))), d_set(w->rows_per_y));
     left = n_and(left, d_greater(zero, d_sub(column, d_mul(d_set(w->x_begin - 1), z))));
     right = n_and(right, d_greater(d_sub(column, d_mul(d_set(w->x_end), z)), zero));
     below = n_and(below, d_greater(zero, d_sub(row, d_mul(d_set(w->y_begin - 1), z))));
@@ -97,11 +97,11 @@ static inline void set_up_edges(const double* moved, int32_t corner_count, const
   const D zero = d_set(0), x0 = d_set(w->x0), y0 = d_set(w->y0), dx = d_set(w->dx),
           dy = d_set(w->dy);
   for (int32_t c = 0; c < corner_count; ++c) {
-    const double* a = moved + c * 3 * kDoubles;
-    const double* b = c + 1 < corner_count ? a + 3 * kDoubles : moved;
+    const double* a = moved + c * 3 * kBatch;
+    const double* b = c + 1 < corner_count ? a + 3 * kBatch : moved;
     D sum[3], difference[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const D from = d_load(a + axis * kDoubles), to = d_load(b + axis * kDoubles);
+      const D from = d_load(a + axis * kBatch), to = d_load(b + axis * kBatch);
       sum[axis] = d_add(from, to);
       difference[axis] = d_sub(from, to);
     }
@@ -145,35 +145,44 @@ static inline N store_bounds(D low, D high, N known, double begin, double end, i
   return d_greater(high, low);
 }
 
-/// One vector of the polygons of a cluster.
-/// @return bit p: polygon p of the vector may cover a pixel
-static inline uint32_t set_up_vector(const Cluster* cluster, int first, const WindowProblem* w,
-                                     double* moved, PolygonBatch* batch) {
-  const D zero = d_set(0);
-  D plane[6];
-  for (int k = 0; k < 6; ++k)
-    plane[k] = d_load(cluster->planes + k * kBatch + first);
-  const D distance = d_dot(plane[0], plane[1], plane[2], d_sub(plane[3], d_set(w->eye[0])),
-                           d_sub(plane[4], d_set(w->eye[1])), d_sub(plane[5], d_set(w->eye[2])));
-  const D facing_sign =
-      d_select(d_greater(zero, d_mul(distance, d_load(cluster->planes + 6 * kBatch + first))),
-               d_set(1), d_set(-1));
-  const N facing = d_greater(facing_sign, zero);
+/// Distance of the eye from the planes, times the lengths of their normals; and +1 where the front
+/// is seen, else -1.
+struct Facing {
+  D distance, sign;
+};
 
+static inline Facing find_facing(const double* planes, const WindowProblem* w) {
+  D to_plane[3];
+  for (int axis = 0; axis < 3; ++axis)
+    to_plane[axis] = d_sub(d_load(planes + (3 + axis) * kBatch), d_set(w->eye[axis]));
+  const D distance = d_dot(d_load(planes), d_load(planes + kBatch), d_load(planes + 2 * kBatch),
+                           to_plane[0], to_plane[1], to_plane[2]);
+  const N facing = d_greater(d_set(0), d_mul(distance, d_load(planes + 6 * kBatch)));
+  return {distance, d_select(facing, d_set(1), d_set(-1))};
+}
+
+/// @return bit p: polygon p of the vector may cover a pixel
+static inline uint32_t find_bounds_of_vector(const Cluster* cluster, int first,
+                                             const WindowProblem* w, double* moved,
+                                             PolygonBatch* batch) {
+  const double* planes = cluster->planes + first;
+  const Facing facing = find_facing(planes, w);
   N same = n_not(n_none());
-  for (int k = 0; k < 3; ++k) {
-    same = n_and(same, d_equal(plane[k], d_set(w->skip_normal[k])));
-    same = n_and(same, d_equal(plane[3 + k], d_set(w->skip_point[k])));
+  D normal[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    normal[axis] = d_load(planes + axis * kBatch);
+    same = n_and(same, d_equal(normal[axis], d_set(w->skip_normal[axis])));
+    same = n_and(same, d_equal(d_load(planes + (3 + axis) * kBatch), d_set(w->skip_point[axis])));
   }
   N alive = n_not(same);
   if (w->draw_backs == 0)
-    alive = n_and(alive, facing);
+    alive = n_and(alive, d_greater(facing.sign, d_set(0)));
 
-  const CornerSummary s = move_corners(cluster->corners + first, cluster->corner_count, w, moved);
-  const D normal_squared = d_dot(plane[0], plane[1], plane[2], plane[0], plane[1], plane[2]);
-  alive = n_and(
-      alive, d_greater(d_mul(distance, distance),
-                       d_mul(d_mul(d_set(kThroughEye * kThroughEye), normal_squared), s.farthest)));
+  const CornerSummary s =
+      move_corners(cluster->corners + first, cluster->corner_count, w, moved + first);
+  const D normal_squared = d_dot(normal[0], normal[1], normal[2], normal[0], normal[1], normal[2]);
+  const D through_eye = d_mul(d_mul(d_set(kThroughEye * kThroughEye), normal_squared), s.farthest);
+  alive = n_and(alive, d_greater(d_mul(facing.distance, facing.distance), through_eye));
   alive = n_and(alive, s.some_in_front);
   if (w->above_horizon != 0)
     alive = n_and(alive, s.some_above);
@@ -182,46 +191,56 @@ static inline uint32_t set_up_vector(const Cluster* cluster, int first, const Wi
   alive = n_and(alive, store_bounds(s.y_low, s.y_high, s.all_in_front, w->y_begin, w->y_end,
                                     batch->y_begin + first, batch->y_end + first));
   if (n_bits(n_and(alive, n_not(s.all_in_front))) != 0)
-    alive =
-        n_and(alive, n_or(s.all_in_front, n_not(beyond_a_side(moved, cluster->corner_count, w))));
-  if (n_bits(alive) == 0)
-    return 0;
+    alive = n_and(
+        alive, n_or(s.all_in_front, n_not(beyond_a_side(moved + first, cluster->corner_count, w))));
+  // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
+  // seen at a grazing angle can be anything.
+  const D nearest = d_mul(s.nearest, d_set(1 + 0x1p-16));
+  d_store_float(batch->nearest + first, d_select(s.all_in_front, nearest, d_set(3e38)));
+  return n_bits(alive);
+}
 
-  set_up_edges(moved, cluster->corner_count, w, facing_sign, batch->edges + first);
+static uint32_t find_bounds(const Cluster* cluster, const WindowProblem* problem, double* moved,
+                            PolygonBatch* batch) {
+  uint32_t alive = 0;
+  for (int first = 0; first < kBatch; first += kDoubles)
+    if ((cluster->present >> first & ((1u << kDoubles) - 1)) != 0)
+      alive |= find_bounds_of_vector(cluster, first, problem, moved, batch) << first;
+  return alive & cluster->present;
+}
+
+static inline void set_up_vector(const Cluster* cluster, int first, const WindowProblem* w,
+                                 const double* moved, PolygonBatch* batch) {
+  const double* planes = cluster->planes + first;
+  const Facing facing = find_facing(planes, w);
+  set_up_edges(moved + first, cluster->corner_count, w, facing.sign, batch->edges + first);
 
   D depth[3];
   for (int axis = 0; axis < 3; ++axis)
-    depth[axis] = d_div(d_set_dot(w->frame[axis], plane[0], plane[1], plane[2]), distance);
+    depth[axis] = d_div(d_set_dot(w->frame[axis], d_load(planes), d_load(planes + kBatch),
+                                  d_load(planes + 2 * kBatch)),
+                        facing.distance);
   // Where a facing and a back-facing polygon are equally deep up to rounding - along every
   // silhouette - the facing one must win: both are moved apart by the rounding they can suffer.
   // Three roundings of 2^-24 of numbers no larger than the sum; 2^-21 leaves some room.
   const D reach = d_add(
       d_add(d_mul(d_abs(depth[0]), d_set(w->x_reach)), d_mul(d_abs(depth[1]), d_set(w->y_reach))),
       d_abs(depth[2]));
-  const D error = d_mul(d_mul(d_set(0x1p-21), reach), facing_sign);
+  const D error = d_mul(d_mul(d_set(0x1p-21), reach), facing.sign);
   const D at_origin =
       d_add(depth[2], d_add(d_mul(depth[0], d_set(w->x0)), d_mul(depth[1], d_set(w->y0))));
   d_store_float(batch->depth_per_pixel + first, d_mul(depth[0], d_set(w->dx)));
   d_store(batch->depth_per_row + first, d_mul(depth[1], d_set(w->dy)));
   d_store(batch->depth_at_origin + first, d_add(at_origin, error));
-  // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
-  // seen at a grazing angle can be anything.
-  const D nearest = d_mul(s.nearest, d_set(1 + 0x1p-16));
-  d_store_float(batch->nearest + first, d_select(s.all_in_front, nearest, d_set(3e38)));
+  const uint32_t fronts = n_bits(d_greater(facing.sign, d_set(0)));
   for (int k = 0; k < kDoubles; ++k)
-    batch->item[first + k] = cluster->ids[first + k];
-  const uint32_t backs = ~n_bits(facing);
-  for (int k = 0; k < kDoubles; ++k)
-    batch->item[first + k] |= (backs >> k & 1) << 31;
-  return n_bits(alive);
+    batch->item[first + k] = cluster->ids[first + k] | (~fronts >> k & 1) << 31;
 }
 
-static uint32_t set_up(const Cluster* cluster, const WindowProblem* problem, double* scratch,
-                       PolygonBatch* batch) {
+static void set_up(const Cluster* cluster, const WindowProblem* problem, const double* moved,
+                   uint32_t polygons, PolygonBatch* batch) {
   batch->corner_count = cluster->corner_count;
-  uint32_t alive = 0;
   for (int first = 0; first < kBatch; first += kDoubles)
-    if ((cluster->present >> first & ((1u << kDoubles) - 1)) != 0)
-      alive |= set_up_vector(cluster, first, problem, scratch, batch) << first;
-  return alive & cluster->present;
+    if ((polygons >> first & ((1u << kDoubles) - 1)) != 0)
+      set_up_vector(cluster, first, problem, moved, batch);
 }
