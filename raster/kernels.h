@@ -76,7 +76,8 @@ struct PolygonBatch {
   alignas(64) int32_t y_begin[kBatch], y_end[kBatch];
   alignas(64) double depth_per_row[kBatch], depth_at_origin[kBatch]; ///< 1/z of pixel (0, y)
   alignas(64) float depth_per_pixel[kBatch];
-  alignas(64) float nearest[kBatch]; ///< 1/z of a pixel is cut off here
+  alignas(64) float depth_error[kBatch]; ///< rounding moves 1/z of a pixel by less
+  alignas(64) float nearest[kBatch];     ///< 1/z of a pixel is cut off here
   alignas(64) uint32_t item[kBatch];
 };
 
@@ -98,8 +99,9 @@ struct TileRange {
   int32_t x0, y0, x1, y1;
 };
 
-/// What is already drawn over some tiles.
-enum class Occlusion : int32_t { kNone, kPartial, kFull };
+/// What is already drawn over some tiles: nothing that covers one, something, or all that is
+/// behind.
+enum class Occlusion : int32_t { kOpen, kCovered, kHidden };
 
 /// The kernels of one instruction set. Every one gives the same bits on every instruction set.
 struct Kernels {
@@ -108,13 +110,12 @@ struct Kernels {
   void (*test_node)(const Node* node, const NodeProblem* problem, NodeResult* result);
 
   /// Moves a cluster's corners into the frame of a window, [corner][axis][kBatch], and finds which
-  /// pixels its polygons can touch (x and y bounds and `nearest` of the batch).
+  /// pixels its polygons can touch, and how deep they lie: all of the batch but edges and items.
   /// @return bit p: polygon p may cover a pixel
   uint32_t (*find_bounds)(const Cluster* cluster, const WindowProblem* problem, double* moved,
                           PolygonBatch* batch);
 
-  /// Finds edges, depth planes and items, all else of the batch, of the polygons whose bits are
-  /// set.
+  /// Finds edges and items of the polygons whose bits are set.
   void (*set_up)(const Cluster* cluster, const WindowProblem* problem, const double* moved,
                  uint32_t polygons, PolygonBatch* batch);
 
@@ -123,8 +124,13 @@ struct Kernels {
   /// row's end.
   void (*draw)(const PolygonBatch* batch, uint32_t polygons, const WindowPlanes* planes);
 
-  /// Whether all, or some, of the tiles already hold only what is nearer than 1/z = nearest.
+  /// What the tiles hold, for something nowhere nearer than 1/z = nearest.
   Occlusion (*occlusion)(const WindowPlanes* planes, const TileRange* tiles, float nearest);
+
+  /// @return bit p: polygon p of the batch, one of those whose bits are set, is behind what its
+  /// tiles
+  ///         already hold
+  uint32_t (*hidden)(const PolygonBatch* batch, uint32_t polygons, const WindowPlanes* planes);
 
   /// Splits a row of items into runs of equal items and then clears the row: items to kNoItem,
   /// depths to 0. Writes where each run begins, the first at 0, and what it holds; both arrays have

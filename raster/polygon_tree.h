@@ -32,7 +32,7 @@ public:
     if (is_cluster) {
       const ClusterRecord& c = clusters_[index];
       from = reinterpret_cast<const char*>(numbers_.data() + c.numbers);
-      bytes = (kPlaneNumbers + 12) * kBatch * sizeof(double);
+      bytes = kPlaneNumbers * kBatch * sizeof(double); // the rest follows by itself
     }
     for (std::size_t k = 0; k < bytes; k += 64)
       __builtin_prefetch(from + k);

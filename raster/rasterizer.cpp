@@ -107,7 +107,7 @@ void Rasterizer::draw(Face face, const PixelGrid& grid, ItemBuffer* buffer) {
     return;
   }
   for (std::uint32_t c = 0; c < tree_->cluster_count(); ++c)
-    draw_cluster(c, Occlusion::kNone, buffer->planes());
+    draw_cluster(c, Occlusion::kOpen, buffer->planes());
 }
 
 /// Calls take(visit) for the children that the window may see.
@@ -142,7 +142,7 @@ void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
       tree_->prefetch(queue_.front().index, queue_.front().is_cluster);
     if (visit.is_cluster || queue_.room() < kBatch)
       draw_visit(visit, planes);
-    else if (kernels_->occlusion(&planes, &visit.tiles, visit.nearest) != Occlusion::kFull)
+    else if (kernels_->occlusion(&planes, &visit.tiles, visit.nearest) != Occlusion::kHidden)
       open_node(tree_->nodes()[visit.index], planes.tile_shift, push);
   }
 }
@@ -150,7 +150,7 @@ void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
 /// Draws a cluster, or all of a node.
 void Rasterizer::draw_visit(const Visit& visit, const WindowPlanes& planes) {
   const Occlusion occlusion = kernels_->occlusion(&planes, &visit.tiles, visit.nearest);
-  if (occlusion == Occlusion::kFull)
+  if (occlusion == Occlusion::kHidden)
     return;
   if (!visit.is_cluster) {
     open_node(tree_->nodes()[visit.index], planes.tile_shift,
@@ -168,16 +168,8 @@ void Rasterizer::draw_cluster(std::uint32_t index, Occlusion occlusion,
   const Cluster cluster = tree_->cluster(index);
   std::uint32_t drawn =
       kernels_->find_bounds(&cluster, &polygon_problem_, moved_corners_.data(), &batch_);
-  if (occlusion == Occlusion::kPartial)
-    for (std::uint32_t left = drawn; left != 0; left &= left - 1) {
-      const int p = std::countr_zero(left);
-      const TileRange tiles = {(batch_.x_begin[p] - planes.x) >> planes.tile_shift,
-                               (batch_.y_begin[p] - planes.y) >> planes.tile_shift,
-                               (batch_.x_end[p] - 1 - planes.x) >> planes.tile_shift,
-                               (batch_.y_end[p] - 1 - planes.y) >> planes.tile_shift};
-      if (kernels_->occlusion(&planes, &tiles, batch_.nearest[p]) == Occlusion::kFull)
-        drawn &= ~(1u << p);
-    }
+  if (occlusion == Occlusion::kCovered)
+    drawn &= ~kernels_->hidden(&batch_, drawn, &planes);
   kernels_->set_up(&cluster, &polygon_problem_, moved_corners_.data(), drawn, &batch_);
   kernels_->draw(&batch_, drawn, &planes);
 }

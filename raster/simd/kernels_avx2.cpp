@@ -33,7 +33,7 @@ namespace hemicube::raster {
 
 extern const Kernels kAvx2Kernels;
 const Kernels kAvx2Kernels = {"avx2",     avx2::test_node, avx2::find_bounds, avx2::set_up,
-                              avx2::draw, avx2::occlusion, avx2::take_runs};
+                              avx2::draw, avx2::occlusion, avx2::hidden,      avx2::take_runs};
 
 } // namespace hemicube::raster
 

@@ -38,9 +38,9 @@ namespace avx512 {
 namespace hemicube::raster {
 
 extern const Kernels kAvx512Kernels;
-const Kernels kAvx512Kernels = {"avx512",         avx512::test_node, avx512::find_bounds,
-                                avx512::set_up,   avx512::draw,      avx512::occlusion,
-                                avx512::take_runs};
+const Kernels kAvx512Kernels = {"avx512",       avx512::test_node, avx512::find_bounds,
+                                avx512::set_up, avx512::draw,      avx512::occlusion,
+                                avx512::hidden, avx512::take_runs};
 
 } // namespace hemicube::raster
 

@@ -10,8 +10,8 @@ namespace scalar {
 } // namespace scalar
 
 extern const Kernels kScalarKernels;
-const Kernels kScalarKernels = {"scalar",         scalar::test_node, scalar::find_bounds,
-                                scalar::set_up,   scalar::draw,      scalar::occlusion,
-                                scalar::take_runs};
+const Kernels kScalarKernels = {"scalar",       scalar::test_node, scalar::find_bounds,
+                                scalar::set_up, scalar::draw,      scalar::occlusion,
+                                scalar::hidden, scalar::take_runs};
 
 } // namespace hemicube::raster

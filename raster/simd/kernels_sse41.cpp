@@ -33,7 +33,7 @@ namespace hemicube::raster {
 
 extern const Kernels kSse41Kernels;
 const Kernels kSse41Kernels = {"sse41",     sse41::test_node, sse41::find_bounds, sse41::set_up,
-                               sse41::draw, sse41::occlusion, sse41::take_runs};
+                               sse41::draw, sse41::occlusion, sse41::hidden,      sse41::take_runs};
 
 } // namespace hemicube::raster
 

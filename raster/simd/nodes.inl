@@ -126,32 +126,79 @@ static float farthest_of_tile(const WindowPlanes* planes, int32_t x, int32_t y) 
   return result;
 }
 
-static inline uint32_t hiding_tiles(const float* farthest, float nearest, uint32_t columns) {
-  uint32_t hiding = 0;
-  for (int32_t x = 0; x < kBatch; x += kFloats)
-    hiding |= m_bits(f_greater(f_load(farthest + x), f_set(nearest))) << x;
-  return hiding & columns;
+/// Depths only ever come nearer: what was found for a tile before is still a bound, and is brought
+/// up to date only where it would decide.
+static inline bool tile_hides(const WindowPlanes* planes, int32_t x, int32_t y, float nearest) {
+  float* farthest = planes->farthest + y * kBatch + x;
+  const uint32_t bit = 1u << x;
+  if (!(*farthest > nearest) && (planes->dirty[y] & bit) != 0) {
+    *farthest = farthest_of_tile(planes, x, y);
+    planes->dirty[y] = static_cast<uint16_t>(planes->dirty[y] & ~bit);
+  }
+  return *farthest > nearest;
 }
 
 static Occlusion occlusion(const WindowPlanes* planes, const TileRange* tiles, float nearest) {
   const uint32_t columns = (2u << tiles->x1) - (1u << tiles->x0);
-  uint32_t some = 0;
+  bool some_covered = false;
   for (int32_t y = tiles->y0; y <= tiles->y1; ++y) {
-    float* farthest = planes->farthest + y * kBatch;
-    // Depths only ever come nearer: what was found before is still a bound.
-    uint32_t hiding = hiding_tiles(farthest, nearest, columns);
-    some |= hiding;
-    for (uint32_t open = columns & ~hiding; open != 0; open &= open - 1) {
-      const uint32_t bit = open & -open;
-      if ((planes->dirty[y] & bit) == 0)
-        return some != 0 ? Occlusion::kPartial : Occlusion::kNone;
-      const int x = __builtin_ctz(open);
-      farthest[x] = farthest_of_tile(planes, x, y);
-      planes->dirty[y] = static_cast<uint16_t>(planes->dirty[y] & ~bit);
-      if (!(farthest[x] > nearest))
-        return some != 0 ? Occlusion::kPartial : Occlusion::kNone;
-      some |= bit;
+    const float* farthest = planes->farthest + y * kBatch;
+    uint32_t covered = 0, hiding = 0;
+    for (int32_t x = 0; x < kBatch; x += kFloats) {
+      covered |= m_bits(f_greater(f_load(farthest + x), f_set(0.0f))) << x;
+      hiding |= m_bits(f_greater(f_load(farthest + x), f_set(nearest))) << x;
+    }
+    some_covered = some_covered || (covered & columns) != 0;
+    for (uint32_t left = columns & ~hiding; left != 0; left &= left - 1) {
+      const int x = __builtin_ctz(left);
+      if (!tile_hides(planes, x, y, nearest))
+        return some_covered || farthest[x] != 0 ? Occlusion::kCovered : Occlusion::kOpen;
     }
   }
-  return Occlusion::kFull;
+  return Occlusion::kHidden;
+}
+
+static inline int32_t larger(int32_t a, int32_t b) {
+  return a > b ? a : b;
+}
+static inline int32_t smaller(int32_t a, int32_t b) {
+  return a < b ? a : b;
+}
+
+/// Testing more tiles than this costs more than drawing.
+constexpr int32_t kMaxTilesTested = 16;
+
+static inline bool is_hidden(const PolygonBatch* batch, int p, const WindowPlanes* planes) {
+  const int32_t shift = planes->tile_shift;
+  const int32_t x_begin = batch->x_begin[p] - planes->x, x_last = batch->x_end[p] - planes->x - 1;
+  const int32_t y_begin = batch->y_begin[p] - planes->y, y_last = batch->y_end[p] - planes->y - 1;
+  const TileRange tiles = {x_begin >> shift, y_begin >> shift, x_last >> shift, y_last >> shift};
+  if ((tiles.x1 - tiles.x0 + 1) * (tiles.y1 - tiles.y0 + 1) > kMaxTilesTested)
+    return false;
+  const double per_row = batch->depth_per_row[p];
+  const double per_pixel = static_cast<double>(batch->depth_per_pixel[p]);
+  const double at_corner = batch->depth_at_origin[p] + per_row * planes->y + per_pixel * planes->x +
+                           static_cast<double>(batch->depth_error[p]);
+  for (int32_t y = tiles.y0; y <= tiles.y1; ++y)
+    for (int32_t x = tiles.x0; x <= tiles.x1; ++x) {
+      // The nearest point of the plane over the polygon's part of the tile.
+      const int32_t row =
+          per_row > 0 ? smaller(y_last, ((y + 1) << shift) - 1) : larger(y_begin, y << shift);
+      const int32_t column =
+          per_pixel > 0 ? smaller(x_last, ((x + 1) << shift) - 1) : larger(x_begin, x << shift);
+      const auto depth = static_cast<float>(at_corner + per_row * row + per_pixel * column);
+      const float nearest = depth < batch->nearest[p] ? depth : batch->nearest[p];
+      if (!tile_hides(planes, x, y, nearest))
+        return false;
+    }
+  return true;
+}
+
+static uint32_t hidden(const PolygonBatch* batch, uint32_t polygons, const WindowPlanes* planes) {
+  uint32_t found = 0;
+  for (; polygons != 0; polygons &= polygons - 1) {
+    const int p = __builtin_ctz(polygons);
+    found |= (is_hidden(batch, p, planes) ? 1u : 0u) << p;
+  }
+  return found;
 }

@@ -161,6 +161,33 @@ static inline Facing find_facing(const double* planes, const WindowProblem* w) {
   return {distance, d_select(facing, d_set(1), d_set(-1))};
 }
 
+/// Writes 1/z as a plane over the pixels.
+static inline void store_depth(const double* planes, int first, const WindowProblem* w,
+                               const Facing& facing, D nearest, N known, PolygonBatch* batch) {
+  D depth[3];
+  for (int axis = 0; axis < 3; ++axis)
+    depth[axis] = d_div(d_set_dot(w->frame[axis], d_load(planes), d_load(planes + kBatch),
+                                  d_load(planes + 2 * kBatch)),
+                        facing.distance);
+  // Where a facing and a back-facing polygon are equally deep up to rounding - along every
+  // silhouette - the facing one must win: both are moved apart by the rounding they can suffer.
+  // Three roundings of 2^-24 of numbers no larger than the sum; 2^-21 leaves some room.
+  const D reach = d_add(
+      d_add(d_mul(d_abs(depth[0]), d_set(w->x_reach)), d_mul(d_abs(depth[1]), d_set(w->y_reach))),
+      d_abs(depth[2]));
+  const D error = d_mul(d_set(0x1p-21), reach);
+  const D at_origin =
+      d_add(depth[2], d_add(d_mul(depth[0], d_set(w->x0)), d_mul(depth[1], d_set(w->y0))));
+  d_store_float(batch->depth_per_pixel + first, d_mul(depth[0], d_set(w->dx)));
+  d_store(batch->depth_per_row + first, d_mul(depth[1], d_set(w->dy)));
+  d_store(batch->depth_at_origin + first, d_add(at_origin, d_mul(error, facing.sign)));
+  d_store_float(batch->depth_error + first, d_mul(d_set(3), error));
+  // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
+  // seen at a grazing angle can be anything.
+  nearest = d_mul(nearest, d_set(1 + 0x1p-16));
+  d_store_float(batch->nearest + first, d_select(known, nearest, d_set(3e38)));
+}
+
 /// @return bit p: polygon p of the vector may cover a pixel
 static inline uint32_t find_bounds_of_vector(const Cluster* cluster, int first,
                                              const WindowProblem* w, double* moved,
@@ -193,10 +220,8 @@ static inline uint32_t find_bounds_of_vector(const Cluster* cluster, int first,
   if (n_bits(n_and(alive, n_not(s.all_in_front))) != 0)
     alive = n_and(
         alive, n_or(s.all_in_front, n_not(beyond_a_side(moved + first, cluster->corner_count, w))));
-  // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
-  // seen at a grazing angle can be anything.
-  const D nearest = d_mul(s.nearest, d_set(1 + 0x1p-16));
-  d_store_float(batch->nearest + first, d_select(s.all_in_front, nearest, d_set(3e38)));
+  if (n_bits(alive) != 0)
+    store_depth(planes, first, w, facing, s.nearest, s.all_in_front, batch);
   return n_bits(alive);
 }
 
@@ -215,23 +240,6 @@ static inline void set_up_vector(const Cluster* cluster, int first, const Window
   const Facing facing = find_facing(planes, w);
   set_up_edges(moved + first, cluster->corner_count, w, facing.sign, batch->edges + first);
 
-  D depth[3];
-  for (int axis = 0; axis < 3; ++axis)
-    depth[axis] = d_div(d_set_dot(w->frame[axis], d_load(planes), d_load(planes + kBatch),
-                                  d_load(planes + 2 * kBatch)),
-                        facing.distance);
-  // Where a facing and a back-facing polygon are equally deep up to rounding - along every
-  // silhouette - the facing one must win: both are moved apart by the rounding they can suffer.
-  // Three roundings of 2^-24 of numbers no larger than the sum; 2^-21 leaves some room.
-  const D reach = d_add(
-      d_add(d_mul(d_abs(depth[0]), d_set(w->x_reach)), d_mul(d_abs(depth[1]), d_set(w->y_reach))),
-      d_abs(depth[2]));
-  const D error = d_mul(d_mul(d_set(0x1p-21), reach), facing.sign);
-  const D at_origin =
-      d_add(depth[2], d_add(d_mul(depth[0], d_set(w->x0)), d_mul(depth[1], d_set(w->y0))));
-  d_store_float(batch->depth_per_pixel + first, d_mul(depth[0], d_set(w->dx)));
-  d_store(batch->depth_per_row + first, d_mul(depth[1], d_set(w->dy)));
-  d_store(batch->depth_at_origin + first, d_add(at_origin, error));
   const uint32_t fronts = n_bits(d_greater(facing.sign, d_set(0)));
   for (int k = 0; k < kDoubles; ++k)
     batch->item[first + k] = cluster->ids[first + k] | (~fronts >> k & 1) << 31;
