@@ -64,7 +64,7 @@ private:
   float* depths_ = nullptr;
   Buffer<float> columns_;       ///< [column of the window]
   Buffer<float> farthest_;      ///< [tile row][kTilesPerRow]
-  Buffer<std::uint16_t> dirty_; ///< [tile row]
+  Buffer<std::uint32_t> dirty_; ///< [tile row]
   Buffer<std::int32_t> run_begins_;
   Buffer<Item> run_items_;
 };

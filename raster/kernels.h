@@ -51,6 +51,14 @@ struct Cluster {
   uint32_t present; ///< bit p: there is a polygon p
 };
 
+/// A polygon whose plane passes the eye at less than this fraction of its farthest vertex' distance
+/// is seen edge-on: it covers nothing, and its depth would be rounding errors.
+constexpr double kThroughEye = 0x1p-45;
+
+/// A polygon is edge-on to the receiver when no vertex rises above its plane by more than this
+/// fraction of its distance.
+constexpr double kEdgeOn = 0x1p-20;
+
 /// A window of a face and the frame it looks along, for polygons.
 struct WindowProblem {
   double eye[3];
@@ -59,21 +67,28 @@ struct WindowProblem {
   double x0, dx, y0, dy;                 ///< PixelGrid
   double columns_per_x, rows_per_y;      ///< 1/dx, 1/dy
   double x_begin, x_end, y_begin, y_end; ///< pixels of the grid
-  double x_reach, y_reach; ///< bounds of |x| and |y| over the grid, for the error of a depth
+  double x_reach, y_reach;    ///< bounds of |x| and |y| over the grid, for the error of a depth
+  double edge_on_to_eye;      ///< larger squares of distances per unit of normal are not edge-on
+  double edge_on_to_receiver; ///< nor are larger heights above the receiver's plane
   int32_t above_horizon, horizon_axis; ///< axis of the frame that is the receiver's normal
   int32_t draw_backs;
 };
+
+/// Tiles of a window, at most, along each side.
+constexpr int32_t kTilesPerRow = 32;
 
 /// Polygons as one window of a face sees them: all that drawing needs. Every floating-point
 /// decision about coverage and depth is made here, once, from the same numbers for both sides of an
 /// edge.
 struct PolygonBatch {
-  /// [corner][left slope, left offset, right slope, right offset][kBatch]: a row y lies between the
-  /// largest left and the smallest right slope * y + offset.
+  /// [corner][slope, offset as a left edge, offset as a right edge][kBatch]: a row y lies between
+  /// the largest left and the smallest right slope * y + offset.
   double* edges;
   int32_t corner_count;
   alignas(64) int32_t x_begin[kBatch], x_end[kBatch]; ///< pixels of the grid
   alignas(64) int32_t y_begin[kBatch], y_end[kBatch];
+  alignas(64) double facing[kBatch];                  ///< 1 if the front is seen, else -1
+  alignas(64) double x_first[kBatch], x_last[kBatch]; ///< x_begin, x_end
   alignas(64) double depth_per_row[kBatch], depth_at_origin[kBatch]; ///< 1/z of pixel (0, y)
   alignas(64) float depth_per_pixel[kBatch];
   alignas(64) float depth_error[kBatch]; ///< rounding moves 1/z of a pixel by less
@@ -90,7 +105,7 @@ struct WindowPlanes {
   int32_t height;
   const float* columns; ///< [column of the window, and 16 more] its column in the grid
   float* farthest;      ///< [tile row][kTilesPerRow]
-  uint16_t* dirty;      ///< [tile row] bit x: farthest is out of date
+  uint32_t* dirty;      ///< [tile row] bit x: farthest is out of date
   int32_t tile_shift;   ///< log2 of the tile size
 };
 
@@ -109,8 +124,9 @@ struct Kernels {
 
   void (*test_node)(const Node* node, const NodeProblem* problem, NodeResult* result);
 
-  /// Moves a cluster's corners into the frame of a window, [corner][axis][kBatch], and finds which
-  /// pixels its polygons can touch, and how deep they lie: all of the batch but edges and items.
+  /// Moves a cluster's corners into the frame of a window, [corner][axis][kBatch], followed by the
+  /// same as floats, and finds which pixels its polygons can touch, and how deep they lie: all of
+  /// the batch but edges and items.
   /// @return bit p: polygon p may cover a pixel
   uint32_t (*find_bounds)(const Cluster* cluster, const WindowProblem* problem, double* moved,
                           PolygonBatch* batch);

@@ -32,8 +32,8 @@ Status Rasterizer::init(const PolygonTree& tree, const Kernels& kernels, Culling
   kernels_ = &kernels;
   culling_ = culling;
   const auto corners = static_cast<std::size_t>(tree.most_corners());
-  HC_TRY(edges_.resize(corners * 4 * kBatch));
-  HC_TRY(moved_corners_.resize(corners * 3 * kBatch));
+  HC_TRY(edges_.resize(corners * 3 * kBatch));
+  HC_TRY(moved_corners_.resize(corners * 3 * kBatch * 3 / 2));
   batch_.edges = edges_.data();
   return queue_.init();
 }
@@ -77,6 +77,9 @@ void Rasterizer::set_window(Face face, const PixelGrid& grid, const Window& wind
 
   NodeProblem& n = node_problem_;
   const Vec3 eye = view_.eye - tree_->origin();
+  const double reach = 1.001 * (tree_->radius() + glm::length(eye)); // no corner is farther
+  p.edge_on_to_eye = kThroughEye * kThroughEye * reach * reach;
+  p.edge_on_to_receiver = kEdgeOn * reach;
   copy(eye, n.eye);
   n.slack = static_cast<float>(kBoxSlack * (tree_->radius() + glm::length(eye)));
   for (int k = 0; k < 3; ++k)
@@ -158,7 +161,8 @@ void Rasterizer::draw_visit(const Visit& visit, const WindowPlanes& planes) {
     return;
   }
   draw_cluster(visit.index, occlusion, planes);
-  const auto columns = static_cast<std::uint16_t>((2u << visit.tiles.x1) - (1u << visit.tiles.x0));
+  const auto columns = static_cast<std::uint32_t>((std::uint64_t{2} << visit.tiles.x1) -
+                                                  (std::uint64_t{1} << visit.tiles.x0));
   for (std::int32_t y = visit.tiles.y0; y <= visit.tiles.y1; ++y)
     planes.dirty[y] |= columns;
 }

@@ -11,11 +11,9 @@ namespace hemicube::raster {
 inline constexpr std::int32_t kRowPitch = kMaxWindowSize + 16;
 
 /// Hierarchical z: the farthest depth of each tile, squares of pixels counted from the window's
-/// corner. Never more than kTilesPerRow a row, so that a row of tiles is one vector; smaller ones
-/// in small windows, where polygons are small too.
-inline constexpr std::int32_t kTilesPerRow = 16;
+/// corner; smaller ones in small windows, where polygons are small too.
 inline constexpr std::int32_t tile_shift(std::int32_t window_size) {
-  return window_size > 8 * kTilesPerRow ? 4 : 3;
+  return window_size > 4 * kTilesPerRow ? 4 : 2;
 }
 
 } // namespace hemicube::raster

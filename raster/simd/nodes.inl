@@ -129,22 +129,23 @@ static float farthest_of_tile(const WindowPlanes* planes, int32_t x, int32_t y) 
 /// Depths only ever come nearer: what was found for a tile before is still a bound, and is brought
 /// up to date only where it would decide.
 static inline bool tile_hides(const WindowPlanes* planes, int32_t x, int32_t y, float nearest) {
-  float* farthest = planes->farthest + y * kBatch + x;
+  float* farthest = planes->farthest + y * kTilesPerRow + x;
   const uint32_t bit = 1u << x;
   if (!(*farthest > nearest) && (planes->dirty[y] & bit) != 0) {
     *farthest = farthest_of_tile(planes, x, y);
-    planes->dirty[y] = static_cast<uint16_t>(planes->dirty[y] & ~bit);
+    planes->dirty[y] &= ~bit;
   }
   return *farthest > nearest;
 }
 
 static Occlusion occlusion(const WindowPlanes* planes, const TileRange* tiles, float nearest) {
-  const uint32_t columns = (2u << tiles->x1) - (1u << tiles->x0);
+  const uint32_t columns =
+      static_cast<uint32_t>((uint64_t{2} << tiles->x1) - (uint64_t{1} << tiles->x0));
   bool some_covered = false;
   for (int32_t y = tiles->y0; y <= tiles->y1; ++y) {
-    const float* farthest = planes->farthest + y * kBatch;
+    const float* farthest = planes->farthest + y * kTilesPerRow;
     uint32_t covered = 0, hiding = 0;
-    for (int32_t x = 0; x < kBatch; x += kFloats) {
+    for (int32_t x = tiles->x0 & -kFloats; x <= tiles->x1; x += kFloats) {
       covered |= m_bits(f_greater(f_load(farthest + x), f_set(0.0f))) << x;
       hiding |= m_bits(f_greater(f_load(farthest + x), f_set(nearest))) << x;
     }

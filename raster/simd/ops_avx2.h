@@ -83,6 +83,28 @@ static inline uint32_t n_bits(N a) {
   return static_cast<uint32_t>(_mm256_movemask_pd(a));
 }
 
+using I = __m128i;
+static inline I i_load(const int32_t* from) {
+  return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+}
+static inline D d_lookup(const double* table, I at) {
+  // Not the plain gather: GCC 12 warns of its own header.
+  return _mm256_mask_i32gather_pd(_mm256_setzero_pd(), table, at,
+                                  _mm256_castsi256_pd(_mm256_set1_epi32(-1)), 8);
+}
+static inline D d_load_int(const int32_t* from) {
+  return _mm256_cvtepi32_pd(i_load(from));
+}
+static inline int32_t n_compress(int32_t* to, int32_t first, N mask) {
+  int32_t count = 0;
+  const uint32_t bits = n_bits(mask);
+  for (int32_t lane = 0; lane < kDoubles; ++lane) {
+    to[count] = first + lane;
+    count += static_cast<int32_t>(bits >> lane & 1);
+  }
+  return count;
+}
+
 static inline F f_set(float value) {
   return _mm256_set1_ps(value);
 }
@@ -159,6 +181,10 @@ static inline U u_select(M mask, U yes, U no) {
 
 static inline M m_first(int32_t count) {
   return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(count), u_iota()));
+}
+static inline M m_from_bits(uint32_t bits) {
+  const U lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  return _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(u_set(bits), lane), lane));
 }
 static inline M m_and(M a, M b) {
   return _mm256_and_ps(a, b);

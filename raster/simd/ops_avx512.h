@@ -83,6 +83,23 @@ static inline uint32_t n_bits(N a) {
   return a;
 }
 
+using I = __m512i;
+static inline I i_load(const int32_t* from) {
+  return _mm512_cvtepi32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+}
+static inline D d_lookup(const double* table, I at) {
+  return _mm512_permutex2var_pd(_mm512_loadu_pd(table), at, _mm512_loadu_pd(table + 8));
+}
+static inline D d_load_int(const int32_t* from) {
+  return _mm512_cvtepi32_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)));
+}
+static inline int32_t n_compress(int32_t* to, int32_t first, N mask) {
+  const __m256i lanes =
+      _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(mask, lanes));
+  return __builtin_popcount(mask);
+}
+
 static inline F f_set(float value) {
   return _mm512_set1_ps(value);
 }
@@ -165,6 +182,9 @@ static inline void u_compress(uint32_t* to, U a, M mask) {
 
 static inline M m_first(int32_t count) {
   return _mm512_cmpgt_epi32_mask(_mm512_set1_epi32(count), u_iota());
+}
+static inline M m_from_bits(uint32_t bits) {
+  return static_cast<M>(bits);
 }
 static inline M m_and(M a, M b) {
   return _kand_mask16(a, b);

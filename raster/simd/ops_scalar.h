@@ -86,6 +86,24 @@ static inline uint32_t n_bits(N a) {
   return a ? 1u : 0u;
 }
 
+// Numbers of elements of a table of kBatch doubles, one for each lane of a D.
+using I = int32_t;
+static inline I i_load(const int32_t* from) {
+  return *from;
+}
+static inline D d_lookup(const double* table, I at) {
+  return table[at];
+}
+static inline D d_load_int(const int32_t* from) {
+  return *from;
+}
+// Writes `first` + lane for the lanes of the mask, one after the other, and anything after them, up
+// to a whole vector; returns how many.
+static inline int32_t n_compress(int32_t* to, int32_t first, N mask) {
+  *to = first;
+  return mask ? 1 : 0;
+}
+
 static inline F f_set(float value) {
   return value;
 }
@@ -173,6 +191,10 @@ static inline void u_compress(uint32_t* to, U a, M mask) {
 // The first `count` lanes; none if count <= 0.
 static inline M m_first(int32_t count) {
   return count > 0;
+}
+// Bit i is lane i.
+static inline M m_from_bits(uint32_t bits) {
+  return (bits & 1) != 0;
 }
 static inline M m_and(M a, M b) {
   return a && b;

@@ -83,6 +83,25 @@ static inline uint32_t n_bits(N a) {
   return static_cast<uint32_t>(_mm_movemask_pd(a));
 }
 
+struct I {
+  int32_t lanes[2];
+};
+static inline I i_load(const int32_t* from) {
+  return {{from[0], from[1]}};
+}
+static inline D d_lookup(const double* table, I at) {
+  return _mm_loadh_pd(_mm_load_sd(table + at.lanes[0]), table + at.lanes[1]);
+}
+static inline D d_load_int(const int32_t* from) {
+  return _mm_cvtepi32_pd(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from)));
+}
+static inline int32_t n_compress(int32_t* to, int32_t first, N mask) {
+  const uint32_t bits = n_bits(mask);
+  to[0] = first;
+  to[bits & 1] = first + 1;
+  return __builtin_popcount(bits);
+}
+
 static inline F f_set(float value) {
   return _mm_set1_ps(value);
 }
@@ -157,6 +176,10 @@ static inline U u_select(M mask, U yes, U no) {
 
 static inline M m_first(int32_t count) {
   return _mm_castsi128_ps(_mm_cmpgt_epi32(_mm_set1_epi32(count), u_iota()));
+}
+static inline M m_from_bits(uint32_t bits) {
+  const U lane = _mm_setr_epi32(1, 2, 4, 8);
+  return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(u_set(bits), lane), lane));
 }
 static inline M m_and(M a, M b) {
   return _mm_and_ps(a, b);

@@ -1,15 +1,10 @@
 // Set-up of polygons in a window, in double: lanes are polygons.
 
-/// A polygon whose plane passes the eye at less than this fraction of its farthest vertex' distance
-/// is seen edge-on: it covers nothing, and its depth would be rounding errors.
-constexpr double kThroughEye = 0x1p-45;
-
-/// A polygon is edge-on to the receiver when no vertex rises above its plane by more than this
-/// fraction of its distance.
-constexpr double kEdgeOn = 0x1p-20;
-
 /// Rounding cannot carry an edge further than this, in pixels, past the ends of its projection.
-constexpr double kPixelMargin = 0x1p-4;
+constexpr float kPixelMargin = 0x1p-4f;
+
+/// Nearer corners are not projected: single precision would divide by nothing.
+constexpr float kLeastDepth = 1e-30f;
 
 /// A crossing that bounds nothing.
 constexpr double kNowhere = 1e300;
@@ -24,20 +19,14 @@ static inline D d_set_dot(const double* a, D x, D y, D z) {
 
 /// What the corners of kDoubles polygons have in common.
 struct CornerSummary {
-  D x_low, x_high, y_low, y_high; ///< pixels; meaningless where a corner is not in front
-  D nearest;                      ///< largest 1/z; likewise
-  D farthest;                     ///< largest squared distance
-  N some_in_front, all_in_front, some_above;
+  D z_low, z_high;
+  D highest; ///< above the receiver's plane
 };
 
-/// Moves corners into the frame of the window: [corner][axis][kBatch].
+/// Moves corners into the frame of the window: [corner][axis][kBatch], and the same rounded.
 static inline CornerSummary move_corners(const double* corners, int32_t corner_count,
-                                         const WindowProblem* w, double* moved) {
-  const D zero = d_set(0), one = d_set(1);
-  CornerSummary s = {
-      d_set(kNowhere), d_set(-kNowhere), d_set(kNowhere), d_set(-kNowhere), zero, zero,
-      n_none(),        n_not(n_none()),  n_none()};
-  const int up = w->horizon_axis, across = 3 - up; // 1 or 2: the axes besides `right`
+                                         const WindowProblem* w, double* moved, float* rounded) {
+  CornerSummary s = {d_set(kNowhere), d_set(-kNowhere), d_set(-kNowhere)};
   for (int32_t c = 0; c < corner_count; ++c) {
     const D x = d_sub(d_load(corners), d_set(w->eye[0]));
     const D y = d_sub(d_load(corners + kBatch), d_set(w->eye[1]));
@@ -47,31 +36,37 @@ static inline CornerSummary move_corners(const double* corners, int32_t corner_c
       v[axis] = d_dot(x, y, z, d_set(w->frame[axis][0]), d_set(w->frame[axis][1]),
                       d_set(w->frame[axis][2]));
       d_store(moved + axis * kBatch, v[axis]);
+      d_store_float(rounded + axis * kBatch, v[axis]);
     }
-    // In this order the sum is the same for every face of a hemicube.
-    const D height_squared = d_mul(v[up], v[up]);
-    const D distance_squared =
-        d_add(d_add(d_mul(v[0], v[0]), d_mul(v[across], v[across])), height_squared);
-    s.farthest = d_max(distance_squared, s.farthest);
-    const D edge_on = d_mul(d_set(kEdgeOn * kEdgeOn), distance_squared);
-    s.some_above =
-        n_or(s.some_above, n_and(d_greater(v[up], zero), d_greater(height_squared, edge_on)));
-
-    const N in_front = d_greater(v[2], zero);
-    s.some_in_front = n_or(s.some_in_front, in_front);
-    s.all_in_front = n_and(s.all_in_front, in_front);
-    const D inverse = d_div(one, v[2]);
-    s.nearest = d_max(inverse, s.nearest);
-    const D column = d_mul(d_sub(d_mul(v[0], inverse), d_set(w->x0)), d_set(w->columns_per_x));
-    const D row = d_mul(d_sub(d_mul(v[1], inverse), d_set(w->y0)), d_set(w->rows_per_y));
-    s.x_low = d_min(column, s.x_low);
-    s.x_high = d_max(column, s.x_high);
-    s.y_low = d_min(row, s.y_low);
-    s.y_high = d_max(row, s.y_high);
+    s.z_low = d_min(v[2], s.z_low);
+    s.z_high = d_max(v[2], s.z_high);
+    s.highest = d_max(w->horizon_axis == 2 ? v[2] : v[1], s.highest);
     corners += 3 * kBatch;
     moved += 3 * kBatch;
+    rounded += 3 * kBatch;
   }
   return s;
+}
+
+/// Polygons that are not edge-on to the eye, and rise above the horizon where there is one.
+/// @param across  distance of the eye from their planes times the lengths of their normals, squared
+static inline N not_edge_on(const double* moved, int32_t corner_count, const WindowProblem* w,
+                            D normal_squared, D across) {
+  const int up = w->horizon_axis, other = 3 - up; // 1 or 2: the axes besides `right`
+  D farthest = d_set(0);
+  N above = w->above_horizon != 0 ? n_none() : n_not(n_none());
+  for (int32_t c = 0; c < corner_count; ++c, moved += 3 * kBatch) {
+    const D height = d_load(moved + up * kBatch), x = d_load(moved),
+            y = d_load(moved + other * kBatch);
+    // In this order the sum is the same for every face of a hemicube.
+    const D height_squared = d_mul(height, height);
+    const D distance_squared = d_add(d_add(d_mul(x, x), d_mul(y, y)), height_squared);
+    farthest = d_max(distance_squared, farthest);
+    const D edge_on = d_mul(d_set(kEdgeOn * kEdgeOn), distance_squared);
+    above = n_or(above, n_and(d_greater(height, d_set(0)), d_greater(height_squared, edge_on)));
+  }
+  const D through_eye = d_mul(d_mul(d_set(kThroughEye * kThroughEye), normal_squared), farthest);
+  return n_and(above, d_greater(across, through_eye));
 }
 
 /// Polygons that lie, as far as they are in front, beyond one side of the window by a pixel.
@@ -118,57 +113,94 @@ static inline void set_up_edges(const double* moved, int32_t corner_count, const
     const D least = d_mul(d_set(0x1p-60), d_add(d_abs(per_y), d_abs(constant)));
     const D tilt = d_copysign(least, d_select(d_equal(per_x, zero), per_y, per_x));
     per_x = d_select(d_greater(least, d_abs(per_x)), tilt, per_x);
-    const D slope = d_div(d_negate(per_y), per_x);
-    const D offset = d_div(d_negate(constant), per_x);
+    const D inverse = d_div(d_set(-1), per_x);
+    const D slope = d_mul(per_y, inverse);
+    const D offset = d_mul(constant, inverse);
     // Where it is still 0 the edge points at the eye: it bounds nothing.
     const D side = d_mul(per_x, facing_sign);
     const N left = d_greater(side, zero), right = d_greater(zero, side);
-    d_store(edges, d_select(left, slope, zero));
+    d_store(edges, d_select(n_or(left, right), slope, zero));
     d_store(edges + kBatch, d_select(left, offset, d_set(-kNowhere)));
-    d_store(edges + 2 * kBatch, d_select(right, slope, zero));
-    d_store(edges + 3 * kBatch, d_select(right, offset, d_set(kNowhere)));
-    edges += 4 * kBatch;
+    d_store(edges + 2 * kBatch, d_select(right, offset, d_set(kNowhere)));
+    edges += 3 * kBatch;
   }
 }
 
-/// Writes the pixels a polygon can cover.
-/// @return those with any
-static inline N store_bounds(D low, D high, N known, double begin, double end, int32_t* first,
-                             int32_t* last) {
-  const D from = d_set(begin), to = d_set(end), margin = d_set(kPixelMargin);
-  low = d_select(known, d_min(d_max(d_sub(low, margin), from), to), from);
-  high = d_select(known, d_max(d_min(d_add(high, margin), to), from), to);
-  low = d_ceil(low);
-  high = d_ceil(high);
-  d_store_int(first, low);
-  d_store_int(last, high);
-  return d_greater(high, low);
+/// Writes the pixels that polygons can cover, and how near they come.
+/// @param in_front  bit p: polygon p is in front of the eye plane; others may cover all of the
+/// window
+/// @return bit p: polygon p may cover a pixel
+static inline uint32_t project(const float* rounded, int32_t corner_count, const WindowProblem* w,
+                               uint32_t in_front, PolygonBatch* batch) {
+  const F x0 = f_set(static_cast<float>(w->x0)), y0 = f_set(static_cast<float>(w->y0));
+  const F columns_per_x = f_set(static_cast<float>(w->columns_per_x));
+  const F rows_per_y = f_set(static_cast<float>(w->rows_per_y));
+  const F x_begin = f_set(static_cast<float>(w->x_begin)),
+          x_end = f_set(static_cast<float>(w->x_end));
+  const F y_begin = f_set(static_cast<float>(w->y_begin)),
+          y_end = f_set(static_cast<float>(w->y_end));
+  uint32_t found = 0;
+  for (int first = 0; first < kBatch; first += kFloats) {
+    M known = m_from_bits(in_front >> first & ((1u << kFloats) - 1));
+    F x_low = f_set(3e38f), x_high = f_set(-3e38f), y_low = x_low, y_high = x_high;
+    F nearest = f_set(0.0f);
+    const float* corner = rounded + first;
+    for (int32_t c = 0; c < corner_count; ++c, corner += 3 * kBatch) {
+      const F z = f_load(corner + 2 * kBatch);
+      known = m_and(known, f_greater(z, f_set(kLeastDepth)));
+      const F inverse = f_div(f_set(1.0f), z);
+      const F column = f_mul(f_sub(f_mul(f_load(corner), inverse), x0), columns_per_x);
+      const F row = f_mul(f_sub(f_mul(f_load(corner + kBatch), inverse), y0), rows_per_y);
+      nearest = f_max(inverse, nearest);
+      x_low = f_min(column, x_low);
+      x_high = f_max(column, x_high);
+      y_low = f_min(row, y_low);
+      y_high = f_max(row, y_high);
+    }
+    // Rounded up by truncation, and if in doubt outwards.
+    const auto pixels = [&](F low, F high, F begin, F end, int32_t* from, int32_t* to) {
+      low = f_add(low, f_set(1 - 1.5f * kPixelMargin));
+      high = f_add(high, f_set(1 + kPixelMargin));
+      f_store_int(from + first, f_select(known, f_min(f_max(low, begin), end), begin));
+      f_store_int(to + first, f_select(known, f_max(f_min(high, end), begin), end));
+      const auto* a = reinterpret_cast<const uint32_t*>(from + first);
+      const auto* b = reinterpret_cast<const uint32_t*>(to + first);
+      return u_less(u_load(a), u_load(b));
+    };
+    const M columns = pixels(x_low, x_high, x_begin, x_end, batch->x_begin, batch->x_end);
+    const M rows = pixels(y_low, y_high, y_begin, y_end, batch->y_begin, batch->y_end);
+    found |= m_bits(m_and(columns, rows)) << first;
+    // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
+    // seen at a grazing angle can be anything.
+    f_store(batch->nearest + first,
+            f_select(known, f_mul(nearest, f_set(1 + 0x1p-16f)), f_set(3e38f)));
+  }
+  for (int first = 0; first < kBatch; first += kDoubles) {
+    d_store(batch->x_first + first, d_load_int(batch->x_begin + first));
+    d_store(batch->x_last + first, d_load_int(batch->x_end + first));
+  }
+  return found;
 }
 
-/// Distance of the eye from the planes, times the lengths of their normals; and +1 where the front
-/// is seen, else -1.
-struct Facing {
-  D distance, sign;
-};
-
-static inline Facing find_facing(const double* planes, const WindowProblem* w) {
+/// Distance of the eye from the planes, times the lengths of their normals.
+static inline D distance_to_eye(const double* planes, const WindowProblem* w) {
   D to_plane[3];
   for (int axis = 0; axis < 3; ++axis)
     to_plane[axis] = d_sub(d_load(planes + (3 + axis) * kBatch), d_set(w->eye[axis]));
-  const D distance = d_dot(d_load(planes), d_load(planes + kBatch), d_load(planes + 2 * kBatch),
-                           to_plane[0], to_plane[1], to_plane[2]);
-  const N facing = d_greater(d_set(0), d_mul(distance, d_load(planes + 6 * kBatch)));
-  return {distance, d_select(facing, d_set(1), d_set(-1))};
+  return d_dot(d_load(planes), d_load(planes + kBatch), d_load(planes + 2 * kBatch), to_plane[0],
+               to_plane[1], to_plane[2]);
 }
 
 /// Writes 1/z as a plane over the pixels.
-static inline void store_depth(const double* planes, int first, const WindowProblem* w,
-                               const Facing& facing, D nearest, N known, PolygonBatch* batch) {
+static inline void store_depth(const double* planes, int first, const WindowProblem* w, D distance,
+                               PolygonBatch* batch) {
+  const D facing = d_load(batch->facing + first);
+  const D inverse = d_div(d_set(1), distance);
   D depth[3];
   for (int axis = 0; axis < 3; ++axis)
-    depth[axis] = d_div(d_set_dot(w->frame[axis], d_load(planes), d_load(planes + kBatch),
+    depth[axis] = d_mul(d_set_dot(w->frame[axis], d_load(planes), d_load(planes + kBatch),
                                   d_load(planes + 2 * kBatch)),
-                        facing.distance);
+                        inverse);
   // Where a facing and a back-facing polygon are equally deep up to rounding - along every
   // silhouette - the facing one must win: both are moved apart by the rounding they can suffer.
   // Three roundings of 2^-24 of numbers no larger than the sum; 2^-21 leaves some room.
@@ -180,75 +212,77 @@ static inline void store_depth(const double* planes, int first, const WindowProb
       d_add(depth[2], d_add(d_mul(depth[0], d_set(w->x0)), d_mul(depth[1], d_set(w->y0))));
   d_store_float(batch->depth_per_pixel + first, d_mul(depth[0], d_set(w->dx)));
   d_store(batch->depth_per_row + first, d_mul(depth[1], d_set(w->dy)));
-  d_store(batch->depth_at_origin + first, d_add(at_origin, d_mul(error, facing.sign)));
+  d_store(batch->depth_at_origin + first, d_add(at_origin, d_mul(error, facing)));
   d_store_float(batch->depth_error + first, d_mul(d_set(3), error));
-  // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
-  // seen at a grazing angle can be anything.
-  nearest = d_mul(nearest, d_set(1 + 0x1p-16));
-  d_store_float(batch->nearest + first, d_select(known, nearest, d_set(3e38)));
 }
 
-/// @return bit p: polygon p of the vector may cover a pixel
-static inline uint32_t find_bounds_of_vector(const Cluster* cluster, int first,
-                                             const WindowProblem* w, double* moved,
-                                             PolygonBatch* batch) {
-  const double* planes = cluster->planes + first;
-  const Facing facing = find_facing(planes, w);
+/// The polygons that are not the receiver, nor its copy or other side.
+static inline N not_skipped(const double* planes, const WindowProblem* w) {
   N same = n_not(n_none());
-  D normal[3];
   for (int axis = 0; axis < 3; ++axis) {
-    normal[axis] = d_load(planes + axis * kBatch);
-    same = n_and(same, d_equal(normal[axis], d_set(w->skip_normal[axis])));
+    same = n_and(same, d_equal(d_load(planes + axis * kBatch), d_set(w->skip_normal[axis])));
     same = n_and(same, d_equal(d_load(planes + (3 + axis) * kBatch), d_set(w->skip_point[axis])));
   }
-  N alive = n_not(same);
-  if (w->draw_backs == 0)
-    alive = n_and(alive, d_greater(facing.sign, d_set(0)));
-
-  const CornerSummary s =
-      move_corners(cluster->corners + first, cluster->corner_count, w, moved + first);
-  const D normal_squared = d_dot(normal[0], normal[1], normal[2], normal[0], normal[1], normal[2]);
-  const D through_eye = d_mul(d_mul(d_set(kThroughEye * kThroughEye), normal_squared), s.farthest);
-  alive = n_and(alive, d_greater(d_mul(facing.distance, facing.distance), through_eye));
-  alive = n_and(alive, s.some_in_front);
-  if (w->above_horizon != 0)
-    alive = n_and(alive, s.some_above);
-  alive = n_and(alive, store_bounds(s.x_low, s.x_high, s.all_in_front, w->x_begin, w->x_end,
-                                    batch->x_begin + first, batch->x_end + first));
-  alive = n_and(alive, store_bounds(s.y_low, s.y_high, s.all_in_front, w->y_begin, w->y_end,
-                                    batch->y_begin + first, batch->y_end + first));
-  if (n_bits(n_and(alive, n_not(s.all_in_front))) != 0)
-    alive = n_and(
-        alive, n_or(s.all_in_front, n_not(beyond_a_side(moved + first, cluster->corner_count, w))));
-  if (n_bits(alive) != 0)
-    store_depth(planes, first, w, facing, s.nearest, s.all_in_front, batch);
-  return n_bits(alive);
+  return n_not(same);
 }
 
-static uint32_t find_bounds(const Cluster* cluster, const WindowProblem* problem, double* moved,
+static uint32_t find_bounds(const Cluster* cluster, const WindowProblem* w, double* moved,
                             PolygonBatch* batch) {
-  uint32_t alive = 0;
-  for (int first = 0; first < kBatch; first += kDoubles)
-    if ((cluster->present >> first & ((1u << kDoubles) - 1)) != 0)
-      alive |= find_bounds_of_vector(cluster, first, problem, moved, batch) << first;
-  return alive & cluster->present;
-}
-
-static inline void set_up_vector(const Cluster* cluster, int first, const WindowProblem* w,
-                                 const double* moved, PolygonBatch* batch) {
-  const double* planes = cluster->planes + first;
-  const Facing facing = find_facing(planes, w);
-  set_up_edges(moved + first, cluster->corner_count, w, facing.sign, batch->edges + first);
-
-  const uint32_t fronts = n_bits(d_greater(facing.sign, d_set(0)));
-  for (int k = 0; k < kDoubles; ++k)
-    batch->item[first + k] = cluster->ids[first + k] | (~fronts >> k & 1) << 31;
+  float* rounded =
+      reinterpret_cast<float*>(moved + static_cast<int64_t>(cluster->corner_count) * 3 * kBatch);
+  uint32_t alive = 0, in_front = 0;
+  D distance[kBatch / kDoubles];
+  for (int first = 0, k = 0; first < kBatch; first += kDoubles, ++k) {
+    const double* planes = cluster->planes + first;
+    distance[k] = distance_to_eye(planes, w);
+    const N fronts = d_greater(d_set(0), d_mul(distance[k], d_load(planes + 6 * kBatch)));
+    d_store(batch->facing + first, d_select(fronts, d_set(1), d_set(-1)));
+    const CornerSummary s = move_corners(cluster->corners + first, cluster->corner_count, w,
+                                         moved + first, rounded + first);
+    N seen = n_and(not_skipped(planes, w), d_greater(s.z_high, d_set(0)));
+    if (w->draw_backs == 0)
+      seen = n_and(seen, fronts);
+    const D n[3] = {d_load(planes), d_load(planes + kBatch), d_load(planes + 2 * kBatch)};
+    const D normal_squared = d_dot(n[0], n[1], n[2], n[0], n[1], n[2]);
+    const D across = d_mul(distance[k], distance[k]);
+    // Most polygons are far from edge-on, whatever their corners are.
+    N certain = d_greater(across, d_mul(d_set(w->edge_on_to_eye), normal_squared));
+    if (w->above_horizon != 0) {
+      certain = n_and(certain, d_greater(s.highest, d_set(w->edge_on_to_receiver)));
+      seen = n_and(seen, d_greater(s.highest, d_set(0)));
+    }
+    if (n_bits(n_and(seen, n_not(certain))) != 0)
+      seen =
+          n_and(seen, not_edge_on(moved + first, cluster->corner_count, w, normal_squared, across));
+    alive |= n_bits(seen) << first;
+    in_front |= n_bits(d_greater(s.z_low, d_set(0))) << first;
+  }
+  alive &= cluster->present;
+  if (alive == 0)
+    return 0;
+  alive &= project(rounded, cluster->corner_count, w, in_front, batch);
+  for (int first = 0, k = 0; first < kBatch; first += kDoubles, ++k) {
+    constexpr uint32_t kLanes = (1u << kDoubles) - 1;
+    if ((alive & ~in_front) >> first & kLanes) {
+      const N beyond = beyond_a_side(moved + first, cluster->corner_count, w);
+      alive &= ~((n_bits(beyond) & ~(in_front >> first)) << first);
+    }
+    if ((alive >> first & kLanes) != 0)
+      store_depth(cluster->planes + first, first, w, distance[k], batch);
+  }
+  return alive;
 }
 
 static void set_up(const Cluster* cluster, const WindowProblem* problem, const double* moved,
                    uint32_t polygons, PolygonBatch* batch) {
   batch->corner_count = cluster->corner_count;
-  for (int first = 0; first < kBatch; first += kDoubles)
-    if ((polygons >> first & ((1u << kDoubles) - 1)) != 0)
-      set_up_vector(cluster, first, problem, moved, batch);
+  for (int first = 0; first < kBatch; first += kDoubles) {
+    if ((polygons >> first & ((1u << kDoubles) - 1)) == 0)
+      continue;
+    const D facing = d_load(batch->facing + first);
+    set_up_edges(moved + first, cluster->corner_count, problem, facing, batch->edges + first);
+    const uint32_t fronts = n_bits(d_greater(facing, d_set(0)));
+    for (int k = 0; k < kDoubles; ++k)
+      batch->item[first + k] = cluster->ids[first + k] | (~fronts >> k & 1) << 31;
+  }
 }
