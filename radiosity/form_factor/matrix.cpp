@@ -2,6 +2,8 @@
 
 #include "raster/hash.h"
 
+#include <bit>
+
 namespace hemicube::radiosity {
 namespace {
 
@@ -34,11 +36,15 @@ double row_sum(const RowView& row) noexcept {
 }
 
 std::uint64_t hash_row(const RowView& row) noexcept {
-  Hash hash(row.columns.size());
-  for (std::size_t k = 0; k < row.columns.size(); ++k) {
-    hash.add(row.columns[k]);
-    hash.add(row.values[k]);
-  }
+  // Four chains side by side: one alone would be waited for.
+  Hash chains[4];
+  const std::size_t count = row.columns.size();
+  for (std::size_t k = 0; k < count; ++k)
+    chains[k % 4].add(std::uint64_t{row.columns[k]} << 32 |
+                      std::bit_cast<std::uint32_t>(row.values[k]));
+  Hash hash(count);
+  for (const Hash& chain : chains)
+    hash.add(chain.value());
   hash.add(row.scale);
   hash.add(row.space);
   hash.add(row.back_side);

@@ -47,6 +47,10 @@ RowView RowBuilder::build(const raster::View& view) {
   return close_row();
 }
 
+namespace {
+constexpr std::size_t kRowsAhead = 2;
+} // namespace
+
 void RowBuilder::read_out(Face face) {
   const std::uint64_t* sums = setup_->delta.sums(face).data() + buffer_.window().x;
   const std::size_t pitch = setup_->delta.resolution();
@@ -55,6 +59,9 @@ void RowBuilder::read_out(Face face) {
     std::uint64_t before = row[0];
     for (std::int32_t k = 0; k < runs.count; ++k) {
       const std::uint64_t after = row[runs.begins[k + 1]];
+      // The sums of large faces do not fit the cache, and runs end about where they end in the rows
+      // that come next.
+      __builtin_prefetch(row + kRowsAhead * pitch + runs.begins[k + 1]);
       const std::uint64_t weight = after - before;
       before = after;
       const raster::Item item = runs.items[k];
