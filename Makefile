@@ -3,12 +3,15 @@
 BUILD ?= build
 TYPE ?= Release
 T ?= .
+FUZZ_SECONDS ?= 60
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
 TEST_PACKAGES := libgtest-dev
 CHECK_PACKAGES := clang clang-format
+FUZZ_PACKAGES := clang libclang-rt-14-dev
+PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri gnuplot-nox
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
 # Packages of a list that are not installed; none where there is no dpkg to ask.
@@ -21,7 +24,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize core bench golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench peers golden clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -68,6 +71,16 @@ sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitize
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
 	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
+fuzz: deps ## install clang, build the fuzzer of the rasterizer, run it FUZZ_SECONDS (60)
+	$(call install,$(FUZZ_PACKAGES))
+	@cmake -S . -B $(BUILD)/fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release \
+	  -DHEMICUBE_TESTS=ON -DHEMICUBE_FUZZ=ON \
+	  -DCMAKE_CXX_FLAGS="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined \
+	    -fsanitize-coverage-ignorelist=$(CURDIR)/tests/fuzz/coverage_ignore.txt -fno-omit-frame-pointer -g1"
+	@cmake --build $(BUILD)/fuzz --parallel $(JOBS) --target raster_fuzz
+	@mkdir -p $(BUILD)/fuzz/corpus
+	@cd $(BUILD)/fuzz && ./raster_fuzz -max_len=2048 -len_control=0 -max_total_time=$(FUZZ_SECONDS) corpus
+
 core: ## the embeddable core alone: a C++20 compiler and GLM
 	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON
 	@cmake --build $(BUILD)/core --parallel $(JOBS)
@@ -76,6 +89,14 @@ bench: deps ## hemicubes per second beside their error into bench/results
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS) --target rows_bench
 	@$(BUILD)/rows_bench bench/results
+
+peers: deps ## install other programs and time them beside this one into bench/results
+	$(call install,$(PEER_PACKAGES))
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target hemicube_peers
+	@$(BUILD)/peers bench/results
+	@for table in bench/results/*/peers.csv; do \
+	  gnuplot -e "folder='$$(dirname $$table)'" bench/peers/plot.gp; done
 
 golden: deps ## rewrite tests/golden/hashes.txt (only for changes that are meant to change results)
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON

@@ -1,8 +1,11 @@
 // Form factors and radiosities as functions of the scene alone: the same bits for any thread count,
 // instruction set and power-of-two scale; closed rows; light that only grows with reflectance.
 
+#include "radiosity/hemicube/delta_form_factors.h"
 #include "radiosity/hemicube/five_views.h"
+#include "radiosity/parallel/thread_pool.h"
 #include "tests/support/drawn_face.h"
+#include "tests/support/office.h"
 #include "tests/support/solved.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +13,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace hemicube::test {
@@ -113,6 +117,63 @@ TEST_P(Scenes, EveryRowClosesExactly) {
   }
 }
 
+/// Every step-th row; throws on any failure.
+void compute_some(const PatchSet& patches, std::uint32_t step, const Options& options,
+                  std::uint32_t threads, FormFactors* result) {
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t row = 0; row < patches.patch_count(); row += step)
+    rows.push_back(row);
+  radiosity::ThreadPool pool;
+  require(pool.init(threads));
+  require(radiosity::compute_form_factors(patches, rows, options, pool, nullptr, &result->matrix,
+                                          &result->certificate));
+}
+
+/// Compares every step-th row with the pixels that its hemicube shows, weighed one by one.
+void expect_rows_of_pixels(const PatchSet& patches, std::uint32_t step, std::uint32_t resolution) {
+  FormFactors factors;
+  compute_some(patches, step, at_resolution(resolution), 1, &factors);
+  radiosity::DeltaFormFactors delta;
+  require(delta.init(resolution));
+  Drawer drawer(radiosity::polygons_of(patches), *raster::kernels_by_name("scalar"),
+                raster::Culling::kOff);
+  for (std::uint64_t i = 0; i < factors.matrix.row_count(); ++i) {
+    std::map<std::uint32_t, std::uint64_t> weights;
+    std::uint64_t space = 0, back_side = 0;
+    drawer.begin(radiosity::hemicube_view(patches, static_cast<std::uint32_t>(i) * step));
+    for (const raster::Face face : kFaces) {
+      const DrawnFace drawn = drawer.draw(face, raster::hemicube_grid(face, resolution));
+      for (int y = 0; y < drawn.height; ++y)
+        for (int x = 0; x < drawn.width; ++x) {
+          const raster::Item item = drawn.items[drawn.index(x, y)];
+          (item == raster::kNoItem        ? space
+           : raster::is_back_facing(item) ? back_side
+                                          : weights[item]) += delta.weight(face, x, y);
+        }
+    }
+    const radiosity::RowView row = factors.matrix.row(i);
+    std::size_t k = 0;
+    for (const auto& [patch, weight] : weights) {
+      ASSERT_LT(k, row.columns.size()) << "row " << i;
+      ASSERT_EQ(row.columns[k], patch) << "row " << i << " at " << resolution;
+      ASSERT_EQ(row.values[k], static_cast<float>(static_cast<double>(weight) * 0x1p-48))
+          << "row " << i << " at " << resolution << ", patch " << patch;
+      ++k;
+    }
+    ASSERT_EQ(k, row.columns.size()) << "row " << i << " at " << resolution;
+    ASSERT_EQ(row.space, static_cast<double>(space) * 0x1p-48) << "row " << i;
+    ASSERT_EQ(row.back_side, static_cast<double>(back_side) * 0x1p-48) << "row " << i;
+  }
+}
+
+// Catches: weights that are counted while drawing and not taken back when something nearer comes,
+// or taken back from the wrong polygon; sums of the wrong face, row or window.
+TEST_P(Scenes, RowsAreTheWeightsOfTheirPixels) {
+  const PatchSet patches = patches_of(GetParam().make());
+  for (const std::uint32_t resolution : {16u, 64u, 130u, 300u})
+    expect_rows_of_pixels(patches, 1 + patches.patch_count() / 30, resolution);
+}
+
 /// The scene with every coordinate times 2^exponent.
 Scene scaled(Scene scene, int exponent) {
   for (Vec3& vertex : scene.vertices)
@@ -141,6 +202,40 @@ INSTANTIATE_TEST_SUITE_P(, Scenes, testing::ValuesIn(kScenes),
                          [](const auto& made) { return std::string(made.param.name); });
 
 // ---------------------------------------------------------------------------------------------------
+
+/// Rooms with doors and furniture: most of it hidden from any one patch.
+PatchSet office_patches() {
+  return patches_of(office({2, 2, 1, 0.8}));
+}
+
+// Catches: the same, where most of what is drawn first is covered later, or hidden and left out.
+TEST(FormFactors, RowsOfAnOfficeAreTheWeightsOfTheirPixels) {
+  const PatchSet patches = office_patches();
+  expect_rows_of_pixels(patches, patches.patch_count() / 60, 64);
+  expect_rows_of_pixels(patches, patches.patch_count() / 20, 258);
+}
+
+// Catches: a row that depends on the worker, on rows drawn before it, or on the vector width, where
+// culling has most to do.
+TEST(FormFactors, NeitherThreadsNorKernelsChangeABitOfAnOffice) {
+  const PatchSet patches = office_patches();
+  for (const std::uint32_t resolution : {64u, 130u}) {
+    Options options = at_resolution(resolution);
+    options.kernels = raster::kernels_by_name("scalar");
+    FormFactors expected;
+    compute_some(patches, 9, options, 1, &expected);
+    for (const std::string& isa : kernels_here())
+      for (const std::uint32_t threads : {1u, 2u, 3u}) {
+        options.kernels = raster::kernels_by_name(isa);
+        FormFactors actual;
+        compute_some(patches, 9, options, threads, &actual);
+        EXPECT_TRUE(same_bits(expected.matrix, actual.matrix))
+            << isa << " at " << resolution << ", " << threads << " threads";
+        EXPECT_EQ(expected.certificate.form_factor_hash, actual.certificate.form_factor_hash)
+            << isa << " at " << resolution << ", " << threads << " threads";
+      }
+  }
+}
 
 /// The scene with its faces in another order: face k of the result is face order[k].
 Scene permuted(const Scene& scene, std::span<const std::uint32_t> order) {
