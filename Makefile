@@ -11,6 +11,7 @@ BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio
 TEST_PACKAGES := libgtest-dev
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
+BENCH_PACKAGES := libbenchmark-dev
 PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri gnuplot-nox
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
@@ -85,10 +86,14 @@ core: ## the embeddable core alone: a C++20 compiler and GLM
 	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON
 	@cmake --build $(BUILD)/core --parallel $(JOBS)
 
-bench: deps ## hemicubes per second beside their error into bench/results
+bench: deps ## hemicubes per second beside their error, and each kernel alone, into bench/results
+	$(call install,$(BENCH_PACKAGES))
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
-	@cmake --build $(BUILD) --parallel $(JOBS) --target rows_bench
+	@cmake --build $(BUILD) --parallel $(JOBS) --target rows_bench --target kernels_bench
 	@$(BUILD)/rows_bench bench/results
+	@$(BUILD)/kernels_bench --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
+	  --benchmark_report_aggregates_only=true --benchmark_out_format=csv \
+	  --benchmark_out=bench/results/kernels.csv
 
 peers: deps ## install other programs and time them beside this one into bench/results
 	$(call install,$(PEER_PACKAGES))

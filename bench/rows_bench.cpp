@@ -1,11 +1,9 @@
 // Hemicubes per second, one thread, every row beside its error and its hash. All instruction sets
 // are timed in one run, interleaved; the median counts. Usage: rows_bench OUTPUT_FOLDER
 // [repetitions]
-#include "radiosity/hemicube/five_views.h"
-#include "radiosity/mesh/build_patches.h"
-#include "radiosity/mesh/openmesh_subdivide.h"
+#include "bench/bench_scenes.h"
+#include "bench/machine.h"
 #include "radiosity/radiosity.h"
-#include "radiosity/scene/read_scene.h"
 #include "raster/kernels.h"
 #include "tests/support/one_point.h"
 
@@ -18,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 using namespace hemicube;
@@ -27,30 +26,43 @@ using hemicube::test::require;
 namespace {
 
 struct Case {
-  const char* name;
-  const char* scene;
-  double max_edge;        ///< metres, 0 = as it is
-  std::uint32_t every;    ///< scattered receivers: every n-th patch
-  const char* error_from; ///< what the form factors are compared with
+  const char* name;        ///< of kBenchScenes
+  std::uint32_t receivers; ///< scattered
+  const char* error_from;  ///< what the form factors are compared with
 };
 
 const Case kCases[] = {
-    {"cube8", "scenes/cube8.obj", 0, 1, "exact point form factors"},
-    {"cornell10k", "scenes/cornell.obj", 0.02, 40, "resolution 2048"},
+    {"cube8", 384, "exact point form factors"},
+    {"cornell10k", 247, "resolution 2048"},
+    {"office100k", 120, "resolution 2048"},
 };
 const std::uint32_t kResolutions[] = {64, 256, 1024};
 
 PatchSet load(const Case& test) {
-  Scene scene;
-  ReadReport read;
-  MeshReport mesh;
-  PatchSet coarse, fine;
-  require(read_scene(std::string(HC_SOURCE_DIR "/") + test.scene, &scene, &read));
-  require(build_patches(scene, &coarse, &mesh));
-  const std::vector<double> limits(coarse.patch_count(), test.max_edge);
-  require(subdivide(coarse, limits, &fine, &mesh));
-  return fine;
+  for (const bench::BenchScene& scene : bench::kBenchScenes)
+    if (std::string(scene.name) == test.name)
+      return scene.build();
+  throw std::runtime_error(std::string("no scene named ") + test.name);
 }
+
+/// The time from the first row to the last.
+class RowClock final : public Progress {
+public:
+  bool rows(std::uint64_t done, std::uint64_t total) noexcept override {
+    const auto now = std::chrono::steady_clock::now();
+    if (done == 0)
+      start_ = now;
+    if (done == total)
+      seconds_ = std::chrono::duration<double>(now - start_).count();
+    return true;
+  }
+  bool sweeps(std::uint64_t, double) noexcept override { return true; }
+  double seconds() const { return seconds_; }
+
+private:
+  std::chrono::steady_clock::time_point start_;
+  double seconds_ = 0;
+};
 
 /// Rows of the receivers as dense vectors.
 std::vector<double> dense_rows(const FormFactorMatrix& matrix) {
@@ -72,10 +84,10 @@ double compute(const PatchSet& patches, const std::vector<std::uint32_t>& rows,
   options.kernels = &kernels;
   SerialExecutor executor;
   Certificate certificate;
-  const auto start = std::chrono::steady_clock::now();
-  require(compute_form_factors(patches, rows, options, executor, nullptr, matrix, &certificate));
+  RowClock clock;
+  require(compute_form_factors(patches, rows, options, executor, &clock, matrix, &certificate));
   *hash = certificate.form_factor_hash;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return clock.seconds();
 }
 
 double rms(const std::vector<double>& a, const std::vector<double>& b) {
@@ -87,25 +99,12 @@ double rms(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::vector<double> reference_rows(const Case& test, const PatchSet& patches,
                                    const std::vector<std::uint32_t>& rows) {
-  if (test.max_edge == 0)
+  if (std::string(test.name) == "cube8")
     return test::one_point_form_factors(patches);
   FormFactorMatrix matrix;
   std::uint64_t hash = 0;
   compute(patches, rows, 2048, raster::best_kernels(), &matrix, &hash);
   return dense_rows(matrix);
-}
-
-std::string cpu_name() {
-  std::ifstream in("/proc/cpuinfo");
-  std::string name = "cpu";
-  for (std::string line; std::getline(in, line);)
-    if (line.rfind("model name", 0) == 0) {
-      name = line.substr(line.find(':') + 2);
-      break;
-    }
-  for (char& c : name)
-    c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(c)) : '-';
-  return name;
 }
 
 } // namespace
@@ -119,16 +118,14 @@ int main(int argc, char** argv) {
   std::map<std::string, std::string> tables; // ISA -> CSV
   for (const Case& test : kCases) {
     const PatchSet patches = load(test);
-    std::vector<std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < patches.patch_count(); i += test.every)
-      rows.push_back(i);
+    const std::vector<std::uint32_t> rows = bench::scattered(patches, test.receivers);
     const std::vector<double> reference = reference_rows(test, patches, rows);
     for (const std::uint32_t resolution : kResolutions) {
       std::map<std::string, std::vector<double>> seconds;
       std::map<std::string, std::uint64_t> hashes;
       FormFactorMatrix matrix;
       for (int k = 0; k < repetitions; ++k)
-        for (const char* isa : {"scalar", "avx2"})
+        for (const char* isa : {"scalar", "sse41", "avx2", "avx512"})
           if (const raster::Kernels* kernels = raster::kernels_by_name(isa))
             seconds[isa].push_back(
                 compute(patches, rows, resolution, *kernels, &matrix, &hashes[isa]));
@@ -152,7 +149,8 @@ int main(int argc, char** argv) {
     }
   }
   for (const auto& [isa, table] : tables) {
-    const std::filesystem::path folder = std::filesystem::path(argv[1]) / (cpu_name() + "_" + isa);
+    const std::filesystem::path folder =
+        std::filesystem::path(argv[1]) / (bench::cpu_name() + "_" + isa);
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "rows.csv")
         << "scene,patches,resolution,rows,threads,hemicubes_per_second,rms_form_factor_error,"

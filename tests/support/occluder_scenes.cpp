@@ -157,7 +157,8 @@ std::vector<RandomScene> steep_things_at_pixel_centres() {
         polygons.add(facing ? strip : reversed(strip));
       }
       if (k < 2) // a few pixels so close to the edge that all of them are cut off
-        look.drawings.push_back({raster::Face::kTop, {20, 20, x, 1e-9, 0.5 * (y0 + y1), 1e-9}});
+        look.drawings.push_back(
+            {raster::Face::kTop, {16, 16, x + 1e-9, 1e-9, 0.5 * (y0 + y1), 1e-9}});
     }
     scenes.push_back({shuffled(polygons, random), {look}});
   }

@@ -109,7 +109,7 @@ void OfficeBuilder::shelf(const Vec3& at, int boards) {
   for (int k = 0; k < boards; ++k) {
     const Vec3 board = at + Vec3(0.03 + kGap, 0, 0.05 + k * (1.8 / boards));
     box(wood_, board, {1.14 - 2 * kGap, 0.35, 0.03});
-    box(carpet_, board + Vec3(0.1, 0.05, 0.03 + kGap), {0.3 + 0.1 * (k % 4), 0.25, 0.25});
+    box(carpet_, board + Vec3(0.1, 0.05, 0.03 + kGap), {0.3 + 0.1 * (k % 4), 0.25, 0.2});
   }
 }
 
@@ -137,7 +137,7 @@ void OfficeBuilder::room(const OfficePlan& plan, int i, int j, int storey) {
   desk(at + Vec3(0.3, 3.1, 0), 1, 0);
   desk(at + Vec3(2.6, 1.1, 0), 0.8, 0.6);
   if (kind != 0)
-    desk(at + Vec3(1.2, 1.0, 0), 12.0 / 13, -5.0 / 13);
+    desk(at + Vec3(0.2, 1.3, 0), 12.0 / 13, -5.0 / 13);
   shelf(at + Vec3(0.05, 4.9, 0), 4 + kind);
   shelf(at + Vec3(2.8, 4.9, 0), 5);
   box(wood_, at + Vec3(0.05, 0.1, 0.01), {0.45, 0.9, 1.3 + 0.2 * kind});
