@@ -29,6 +29,7 @@ constexpr int kRepetitions = 5;
 constexpr double kSlowestSeconds = 0.4; ///< of a repetition of the slowest program
 constexpr double kLeastSeconds = 0.1;   ///< a faster program goes over its receivers again
 constexpr double kLeastReceivers = 12, kMostReceivers = 4096;
+constexpr double kFarSlower = 20; ///< times as slow as this program: fewer receivers
 
 using Receivers = std::vector<std::uint32_t>;
 
@@ -37,7 +38,8 @@ struct Entry {
   std::unique_ptr<Peer> peer;
   Receivers receivers; ///< as often as it takes to measure the time
   std::vector<double> seconds;
-  std::uint64_t hash = 0;
+  std::size_t distinct = 0; ///< receivers that are timed, each as often as it takes
+  std::uint64_t hash = 0;   ///< of `rows`
   DenseRows rows;
 
   double hemicubes_per_second() {
@@ -121,15 +123,25 @@ void measure(const BenchScene& scene, const PatchSet& patches, std::uint32_t res
     entry.peer->prepare(patches, resolution);
     row_seconds.push_back(calibrate(*entry.peer, patches));
   }
-  const double slowest = *std::max_element(row_seconds.begin(), row_seconds.end());
-  const Receivers receivers =
-      scattered(patches, static_cast<std::uint32_t>(std::clamp(kSlowestSeconds / slowest,
-                                                               kLeastReceivers, kMostReceivers)));
+  const auto receivers_for = [&](double seconds) {
+    return scattered(patches, static_cast<std::uint32_t>(std::clamp(
+                                  kSlowestSeconds / seconds, kLeastReceivers, kMostReceivers)));
+  };
+  // Rows are compared for what the slowest has time for. All are timed on the same receivers but
+  // those that are far slower than this program: what a receiver costs varies, and few mislead.
+  const Receivers compared =
+      receivers_for(*std::max_element(row_seconds.begin(), row_seconds.end()));
+  double shared = 0;
+  for (const double seconds : row_seconds)
+    if (seconds < kFarSlower * row_seconds[0])
+      shared = std::max(shared, seconds);
   for (std::size_t k = 0; k < entries.size(); ++k) {
     Entry& entry = entries[k];
     entry.seconds.clear();
-    time_rows(*entry.peer, receivers, &entry.rows, &entry.hash);
-    entry.receivers = repeated(receivers, kLeastSeconds / row_seconds[k]);
+    time_rows(*entry.peer, compared, &entry.rows, &entry.hash);
+    const Receivers timed = row_seconds[k] <= shared ? receivers_for(shared) : compared;
+    entry.distinct = timed.size();
+    entry.receivers = repeated(timed, kLeastSeconds / row_seconds[k]);
   }
   for (int repetition = 0; repetition < kRepetitions; ++repetition)
     for (Entry& entry : entries) {
@@ -147,12 +159,12 @@ void measure(const BenchScene& scene, const PatchSet& patches, std::uint32_t res
     const double rate = entry.hemicubes_per_second();
     char line[300];
     std::snprintf(line, sizeof line, "%s,%u,%u,%s,%zu,%.1f,%.2f,%s,%016" PRIx64 "\n", scene.name,
-                  patches.patch_count(), resolution, entry.peer->name().c_str(), receivers.size(),
+                  patches.patch_count(), resolution, entry.peer->name().c_str(), entry.distinct,
                   rate, own / rate, differences, entry.hash);
     print_line(csv, line);
     std::printf("%-11s %7u %5u  %-14s %5zu %10.1f/s %8.2fx  %s\n", scene.name,
-                patches.patch_count(), resolution, entry.peer->name().c_str(), receivers.size(),
-                rate, own / rate, differences);
+                patches.patch_count(), resolution, entry.peer->name().c_str(), entry.distinct, rate,
+                own / rate, differences);
     std::fflush(stdout);
   }
 }
