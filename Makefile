@@ -91,7 +91,7 @@ bench: deps ## hemicubes per second beside their error, and each kernel alone, i
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS) --target rows_bench --target kernels_bench
 	@$(BUILD)/rows_bench bench/results
-	@$(BUILD)/kernels_bench --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
+	@$(BUILD)/kernels_bench --benchmark_min_time=0.05 --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out_format=csv \
 	  --benchmark_out=bench/results/kernels.csv
 

@@ -120,7 +120,6 @@ void draw(benchmark::State& state, const Kernels& kernels) {
     state.SkipWithError("not all polygons are seen");
   for (auto _ : state)
     kernels.draw(&stage.batch, drawn, &stage.buffer.planes());
-  state.counters["pixels"] = 16.0 * static_cast<double>(state.range(0) * state.range(0));
 }
 
 void hidden(benchmark::State& state, const Kernels& kernels) {
