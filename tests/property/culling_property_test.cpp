@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -194,6 +197,46 @@ TEST_P(Culled, WindowsDoNotChangeABit) {
           << name(s, k) << "windows of " << size[0] << " x " << size[1];
     }
   }
+}
+
+/// A wall of strips over all of a grid, every border a little before or behind a pixel's centre.
+/// @param vertical  whether the borders are columns
+PolygonSet strips_between_pixels(Random& random, const raster::PixelGrid& grid, bool vertical) {
+  const auto count = static_cast<std::uint32_t>(vertical ? grid.width : grid.height);
+  const double begin = vertical ? grid.x0 : grid.y0, step = vertical ? grid.dx : grid.dy;
+  std::vector<double> borders = {begin - step, begin + count * step};
+  for (int k = 0; k < 300; ++k) {
+    const double off = std::pow(10.0, random.between(-7, -0.7)) * (k % 2 == 0 ? 1 : -1);
+    borders.push_back(begin + (random.index(count) + off) * step);
+  }
+  std::sort(borders.begin(), borders.end());
+  const double z = std::pow(10.0, random.between(-2, 2));
+  PolygonSet strips;
+  for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+    const double a = borders[k] * z, b = borders[k + 1] * z;
+    strips.add(vertical ? card(a, b, -2 * z, 2 * z, z) : card(-2 * z, 2 * z, a, b, z));
+  }
+  return strips;
+}
+
+// Catches: bounds of polygons, or of boxes, that are rounded by more than their margin where pixels
+// have large numbers: the largest hemicubes, and pictures of thousands of pixels a side.
+TEST(Culling, NoPixelIsLostBetweenNeighboursOnLargeGrids) {
+  Random random(74);
+  for (const int size : {512, 2048, 16384, 65536})
+    for (const bool vertical : {false, true})
+      for (const double half_side : {1.0, 0.01, 9.0}) {
+        const double half_height = vertical ? half_side * 16 / size : half_side;
+        const Drawing drawing = vertical
+                                    ? camera_drawing(size, 16, half_height, random.index(2) == 0)
+                                    : camera_drawing(16, size, half_height, random.index(2) == 0);
+        const PolygonSet strips = strips_between_pixels(random, drawing.grid, vertical);
+        Drawer drawer(strips.view(), raster::best_kernels());
+        drawer.begin(straight_view());
+        const DrawnFace drawn = drawer.draw(drawing.face, drawing.grid);
+        EXPECT_EQ(std::count(drawn.items.begin(), drawn.items.end(), kNoItem), 0)
+            << size << (vertical ? " columns" : " rows") << ", half a side is " << half_side;
+      }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Culled, testing::ValuesIn(kRandomScenes),
