@@ -62,6 +62,8 @@ inline Vec3 from_face(Face face, const Vec3& v) {
 
 /// Pixel centres on the plane forward = 1 of a face: pixel (i, j) looks along
 /// (x0 + i dx, y0 + j dy, 1), 0 <= i < width, 0 <= j < height.
+/// |x0 / dx| and |y0 / dy|, and with them the sizes, stay below 2^17: bounds of polygons are found
+/// in single precision.
 struct PixelGrid {
   std::int32_t width = 0, height = 0;
   double x0 = 0, dx = 0, y0 = 0, dy = 0;
