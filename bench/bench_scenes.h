@@ -11,7 +11,6 @@ namespace hemicube::bench {
 /// A scene that rows are timed on.
 struct BenchScene {
   const char* name;
-  bool is_office; ///< most of it is hidden from any one patch
   radiosity::PatchSet (*build)();
 };
 

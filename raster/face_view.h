@@ -83,10 +83,10 @@ inline PixelGrid hemicube_grid(Face face, std::uint32_t resolution) {
   return grid;
 }
 
-/// A rectangle of pixels of a grid; drawn, read and cleared at a time so that it stays in cache.
+/// A rectangle of pixels of a grid, up to kMaxWindowSize along each side; drawn, read and cleared
+/// at a time so that it stays in cache.
 struct Window {
   std::int32_t x = 0, y = 0, width = 0, height = 0;
 };
-inline constexpr std::int32_t kMaxWindowSize = 256;
 
 } // namespace hemicube::raster

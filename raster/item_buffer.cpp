@@ -17,7 +17,6 @@ Status ItemBuffer::init() {
   std::fill_n(depths_, pixels, 0.0f);
   HC_TRY(farthest_.resize(static_cast<std::size_t>(kTilesPerRow) * kTilesPerRow));
   HC_TRY(dirty_.resize(kTilesPerRow));
-  HC_TRY(columns_.resize(kRowPitch));
   HC_TRY(run_begins_.resize(kMaxWindowSize + 16));
   return run_items_.resize(kMaxWindowSize + 16);
 }
@@ -33,15 +32,11 @@ void ItemBuffer::begin(const Window& window) {
   }
   clear_ = false;
   window_ = window;
-  for (std::int32_t x = 0; x < kRowPitch; ++x)
-    columns_[static_cast<std::size_t>(x)] = static_cast<float>(window.x + x);
   farthest_.fill(0.0f);
   dirty_.fill(0);
-  planes_ = {items_ + kLead,  depths_ + kLead,
-             kRowPitch,       window.x,
-             window.y,        window.height,
-             columns_.data(), farthest_.data(),
-             dirty_.data(),   tile_shift(std::max(window.width, window.height))};
+  planes_ = {items_ + kLead,   depths_ + kLead, kRowPitch,
+             window.x,         window.y,        window.height,
+             farthest_.data(), dirty_.data(),   tile_shift(std::max(window.width, window.height))};
 }
 
 std::uint64_t hash_items(const ItemBuffer& buffer, std::uint64_t seed) {

@@ -62,7 +62,6 @@ private:
   Buffer<std::byte> memory_; ///< of both planes: side by side they share a huge page
   Item* items_ = nullptr;
   float* depths_ = nullptr;
-  Buffer<float> columns_;       ///< [column of the window]
   Buffer<float> farthest_;      ///< [tile row][kTilesPerRow]
   Buffer<std::uint32_t> dirty_; ///< [tile row]
   Buffer<std::int32_t> run_begins_;

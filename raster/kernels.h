@@ -74,7 +74,8 @@ struct WindowProblem {
   int32_t draw_backs;
 };
 
-/// Tiles of a window, at most, along each side.
+/// Pixels and tiles of a window, at most, along each side.
+constexpr int32_t kMaxWindowSize = 256;
 constexpr int32_t kTilesPerRow = 32;
 
 /// Polygons as one window of a face sees them: all that drawing needs. Every floating-point
@@ -103,10 +104,9 @@ struct WindowPlanes {
   int32_t pitch;
   int32_t x, y; ///< of the grid: the window's corner
   int32_t height;
-  const float* columns; ///< [column of the window, and 16 more] its column in the grid
-  float* farthest;      ///< [tile row][kTilesPerRow]
-  uint32_t* dirty;      ///< [tile row] bit x: farthest is out of date
-  int32_t tile_shift;   ///< log2 of the tile size
+  float* farthest;    ///< [tile row][kTilesPerRow]
+  uint32_t* dirty;    ///< [tile row] bit x: farthest is out of date
+  int32_t tile_shift; ///< log2 of the tile size
 };
 
 /// Tiles x0..x1 by y0..y1 of a window, both ends included.

@@ -40,6 +40,7 @@ Status Rasterizer::init(const PolygonTree& tree, const Kernels& kernels, Culling
 
 void Rasterizer::begin(const View& view) {
   view_ = view;
+  farthest_ = tree_->radius() + glm::length(view.eye - tree_->origin());
   WindowProblem& p = polygon_problem_;
   copy(view.eye, p.eye);
   p.above_horizon = view.above_horizon ? 1 : 0;
@@ -77,11 +78,11 @@ void Rasterizer::set_window(Face face, const PixelGrid& grid, const Window& wind
 
   NodeProblem& n = node_problem_;
   const Vec3 eye = view_.eye - tree_->origin();
-  const double reach = 1.001 * (tree_->radius() + glm::length(eye)); // no corner is farther
+  const double reach = 1.001 * farthest_; // beyond rounding
   p.edge_on_to_eye = kThroughEye * kThroughEye * reach * reach;
   p.edge_on_to_receiver = kEdgeOn * reach;
   copy(eye, n.eye);
-  n.slack = static_cast<float>(kBoxSlack * (tree_->radius() + glm::length(eye)));
+  n.slack = static_cast<float>(kBoxSlack * farthest_);
   for (int k = 0; k < 3; ++k)
     copy(frame[k], n.frame[k]);
   const auto side = [&](int k, const Vec3& across, double at, double inwards) {
@@ -133,8 +134,7 @@ void Rasterizer::open_node(const Node& node, std::int32_t tile_shift, Take take)
 }
 
 void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
-  const double farthest = tree_->radius() + glm::length(view_.eye - tree_->origin());
-  queue_.begin(static_cast<float>(1 / farthest));
+  queue_.begin(static_cast<float>(1 / farthest_));
   const auto push = [&](const Visit& visit) {
     queue_.push(visit, visit.is_away ? visit.nearest * kBacksLater : visit.nearest);
   };

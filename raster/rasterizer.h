@@ -39,6 +39,7 @@ private:
   const Kernels* kernels_ = nullptr;
   Culling culling_ = Culling::kOn;
   View view_;
+  double farthest_ = 0; ///< no corner is farther from the eye
   WindowProblem polygon_problem_{};
   NodeProblem node_problem_{};
   PolygonBatch batch_{};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raster/face_view.h"
+#include "raster/kernels.h"
 
 #include <cstdint>
 

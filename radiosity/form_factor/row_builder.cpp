@@ -7,6 +7,13 @@ namespace hemicube::radiosity {
 using raster::Face;
 using raster::Window;
 
+namespace {
+
+/// Sums are asked for this many rows before they are needed.
+constexpr std::size_t kRowsAhead = 2;
+
+} // namespace
+
 Status RowSetup::init(const raster::Polygons& polygons, std::uint32_t resolution,
                       const raster::Kernels& kernels_in, bool hash_items_in) {
   kernels = &kernels_in;
@@ -46,10 +53,6 @@ RowView RowBuilder::build(const raster::View& view) {
   }
   return close_row();
 }
-
-namespace {
-constexpr std::size_t kRowsAhead = 2;
-} // namespace
 
 void RowBuilder::read_out(Face face) {
   const std::uint64_t* sums = setup_->delta.sums(face).data() + buffer_.window().x;

@@ -1,8 +1,7 @@
 // Drawing and reading pixels: lanes are rows of polygons while spans are found, then pixels.
 
-/// Rows of a window, and rows that are solved at a time, at most.
-constexpr int32_t kMaxWindowRows = 256;
-constexpr int32_t kMaxSpans = 2 * kMaxWindowRows;
+/// Rows that are solved at a time, at most; at least those of 16 low polygons, or of a window.
+constexpr int32_t kMaxSpans = 2 * kMaxWindowSize;
 
 /// A polygon of no more rows shares vectors with others.
 constexpr int32_t kLowRows = 6;
