@@ -57,8 +57,9 @@ PolygonList reversed(PolygonList polygons) {
   return polygons;
 }
 
-void append(PolygonList* polygons, const PolygonList& more) {
-  polygons->insert(polygons->end(), more.begin(), more.end());
+void append(PolygonList* polygons, PolygonList more) {
+  for (Polygon& polygon : more)
+    polygons->push_back(std::move(polygon));
 }
 
 PolygonList rectangle_grid(double low_x, double low_y, double high_x, double high_y, int nx,
@@ -73,13 +74,17 @@ PolygonList rectangle_grid(double low_x, double low_y, double high_x, double hig
   return grid;
 }
 
-PolygonList in_triangles(const PolygonList& quads, std::uint32_t seed) {
+PolygonList in_triangles(const PolygonList& polygons, std::uint32_t seed) {
   Random random(seed);
   PolygonList triangles;
-  for (const Polygon& quad : quads) {
+  for (const Polygon& quad : polygons) {
+    if (quad.size() != 4) {
+      triangles.push_back(quad);
+      continue;
+    }
     const std::size_t first = random.index(2);
     for (const std::size_t start : {first, first + 2})
-      triangles.push_back({quad[start], quad[start + 1], quad[(start + 2) % 4]});
+      triangles.push_back({quad[start], quad[(start + 1) % 4], quad[(start + 2) % 4]});
   }
   return triangles;
 }

@@ -18,12 +18,12 @@ PolygonList moved(PolygonList polygons, double scale, const Vec3& offset);
 PolygonList turned(PolygonList polygons, const std::array<Vec3, 3>& frame);
 PolygonList shuffled(PolygonList polygons, std::uint32_t seed);
 PolygonList reversed(PolygonList polygons);
-void append(PolygonList* polygons, const PolygonList& more);
+void append(PolygonList* polygons, PolygonList more);
 
 /// nx x ny rectangles that tile [low, high] of the plane z = 0, front towards +z.
 PolygonList rectangle_grid(double low_x, double low_y, double high_x, double high_y, int nx,
                            int ny);
 /// Every quad cut into two triangles along a diagonal of random choice.
-PolygonList in_triangles(const PolygonList& quads, std::uint32_t seed);
+PolygonList in_triangles(const PolygonList& polygons, std::uint32_t seed);
 
 } // namespace hemicube::test
