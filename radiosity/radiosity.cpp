@@ -1,6 +1,5 @@
 #include "radiosity/radiosity.h"
 
-#include "radiosity/hemicube/five_views.h"
 #include "radiosity/light_model.h"
 #include "radiosity/row_run.h"
 #include "radiosity/solve/gauss_seidel.h"
@@ -21,12 +20,12 @@ class RowStatistics {
 public:
   Status init(std::uint64_t rows, bool hash_items) {
     hash_items_ = hash_items;
-    return rows_.resize(rows, {kNotComputed, 0, 0, 0, 0, 0});
+    return rows_.resize(rows, {kNotComputed, 0, 0, 0, {}, 0});
   }
 
-  void record(std::uint64_t index, const RowView& row, const RowBuilder& builder) {
-    rows_[index] = {row_sum(row),  row.space,           row.back_side,
-                    hash_row(row), builder.item_hash(), row.columns.size()};
+  void record(std::uint64_t index, const RowView& row, const RowFacts& facts) {
+    rows_[index] = {row_sum(row), row.space, row.back_side, hash_row(row), facts,
+                    row.columns.size()};
   }
 
   double sum(std::uint64_t index) const { return rows_[index].sum; }
@@ -43,17 +42,20 @@ public:
         continue;
       const bool first = seen++ == 0;
       rows_hash.add(row.hash);
-      items_hash.add(row.item_hash);
+      items_hash.add(row.facts.item_hash);
       c.nonzeros += row.nonzeros;
+      c.hemicubes += row.facts.hemicubes;
+      c.subpixel_patches += row.facts.subpixel_patches;
+      extend(row.facts.raw_sum, first, &c.row_sum_raw);
       extend(row.sum, first, &c.row_sum);
       extend(row.space, i, first, &c.space);
       extend(row.back_side, i, first, &c.back_side);
     }
     if (seen != 0)
-      for (double* mean : {&c.row_sum.mean, &c.space.mean, &c.back_side.mean})
+      for (double* mean :
+           {&c.row_sum_raw.mean, &c.row_sum.mean, &c.space.mean, &c.back_side.mean})
         *mean /= static_cast<double>(seen);
-    c.row_sum_raw = c.row_sum; // rung hemicube: integer sums close by themselves
-    c.hemicubes = seen;
+    c.rows = seen;
     c.form_factor_hash = rows_hash.value();
     c.has_item_hash = hash_items_;
     c.item_hash = hash_items_ ? items_hash.value() : 0;
@@ -63,7 +65,9 @@ private:
   struct Entry {
     double sum; ///< NaN: no row was built
     double space, back_side;
-    std::uint64_t hash, item_hash, nonzeros;
+    std::uint64_t hash;
+    RowFacts facts;
+    std::uint64_t nonzeros;
   };
 
   static void extend(double value, bool first, Range* range) {
@@ -144,13 +148,13 @@ Status SceneSolver::prepare() {
 Status SceneSolver::build_matrix() {
   return run_.build(
       patches_.patch_count(),
-      [&](std::uint64_t i, raster::View* view) {
-        *view = hemicube_view(patches_, static_cast<std::uint32_t>(i));
+      [&](std::uint64_t i, RowPlace* place) {
+        place->patch = static_cast<std::uint32_t>(i);
         return !problem_.is_black(i);
       },
-      [&](std::uint64_t i, const RowView& row, const RowBuilder* builder) {
-        if (builder != nullptr)
-          statistics_.record(i, row, *builder);
+      [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
+        if (facts != nullptr)
+          statistics_.record(i, row, *facts);
         return matrix_.append_row(i / FormFactorMatrix::kBlockRows, row);
       });
 }
@@ -175,15 +179,15 @@ Status SceneSolver::gather_black_irradiance() {
   const std::uint32_t bands = light_.band_count;
   return run_.build(
       patches_.patch_count(),
-      [&](std::uint64_t i, raster::View* view) {
-        *view = hemicube_view(patches_, static_cast<std::uint32_t>(i));
+      [&](std::uint64_t i, RowPlace* place) {
+        place->patch = static_cast<std::uint32_t>(i);
         return options_.black_irradiance && problem_.is_black(i);
       },
-      [&](std::uint64_t i, const RowView& row, const RowBuilder* builder) {
-        if (builder != nullptr)
-          statistics_.record(i, row, *builder);
+      [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
+        if (facts != nullptr)
+          statistics_.record(i, row, *facts);
         for (std::uint32_t b = 0; b < bands && problem_.is_black(i); ++b)
-          irradiance_[i * bands + b] = builder == nullptr
+          irradiance_[i * bands + b] = facts == nullptr
                                            ? kNotComputed
                                            : row_dot(row, radiosity_.data() + b, bands) +
                                                  row.space * problem_.space_exitance[b];
@@ -218,7 +222,7 @@ Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
   statistics_.summarise(certificate);
   certificate->scene_hash = hash_scene(scene_, patches_);
   certificate->radiosity_hash = radiosity_hash.value();
-  if (certificate->hemicubes < count)
+  if (certificate->rows < count)
     return {}; // without the irradiance of black patches there is no balance
   HC_TRY(certificate->energy.resize(bands));
   balance_energy(s, certificate);
@@ -243,9 +247,9 @@ void SceneSolver::balance_energy(const Solution& s, Certificate* certificate) co
   }
 }
 
-/// Rows of any receivers into a matrix, row k at views(k).
-template <typename ViewOf>
-Status compute_rows(const PatchSet& patches, std::uint64_t count, ViewOf view_of,
+/// Rows of any receivers into a matrix, row k at place_of(k).
+template <typename PlaceOf>
+Status compute_rows(const PatchSet& patches, std::uint64_t count, PlaceOf place_of,
                     const Options& options, Executor& executor, Progress* progress,
                     FormFactorMatrix* matrix, Certificate* certificate) {
   const FloatEnvironment environment;
@@ -256,12 +260,12 @@ Status compute_rows(const PatchSet& patches, std::uint64_t count, ViewOf view_of
   HC_TRY(matrix->init(count, patches.patch_count()));
   HC_TRY(run.build(
       count,
-      [&](std::uint64_t k, raster::View* view) {
-        *view = view_of(k);
+      [&](std::uint64_t k, RowPlace* place) {
+        *place = place_of(k);
         return true;
       },
-      [&](std::uint64_t k, const RowView& row, const RowBuilder* builder) {
-        statistics.record(k, row, *builder);
+      [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
+        statistics.record(k, row, *facts);
         return matrix->append_row(k / FormFactorMatrix::kBlockRows, row);
       }));
   *certificate = {};
@@ -300,8 +304,8 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
   };
   HC_TRY(compute_rows(
       patches, rows.empty() ? patches.patch_count() : rows.size(),
-      [&](std::uint64_t k) { return hemicube_view(patches, patch_of(k)); }, options, executor,
-      progress, matrix, certificate));
+      [&](std::uint64_t k) { return RowPlace{patch_of(k)}; }, options, executor, progress,
+      matrix, certificate));
   if (rows.empty()) {
     certificate->has_reciprocity = true;
     HC_TRY(measure_reciprocity(*matrix, patches.area.span(), executor, &certificate->reciprocity));
@@ -325,8 +329,10 @@ Status compute_point_form_factors(const PatchSet& patches, std::span<const Recei
   }
   return compute_rows(
       patches, points.size(),
-      [&](std::uint64_t k) { return hemicube_view(points[k].position, points[k].normal); }, options,
-      executor, progress, matrix, certificate);
+      [&](std::uint64_t k) {
+        return RowPlace{RowPlace::kNoPatch, points[k].position, points[k].normal};
+      },
+      options, executor, progress, matrix, certificate);
 }
 
 } // namespace hemicube::radiosity

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/form_factor/matrix.h"
+#include "radiosity/form_factor/rung.h"
 #include "radiosity/mesh/patch_set.h"
 #include "radiosity/output/certificate.h"
 #include "radiosity/parallel/executor.h"
@@ -11,6 +12,8 @@ namespace hemicube::radiosity {
 
 /// What the caller chooses. The defaults are those of the command line.
 struct Options {
+  Rung rung = Rung::kHemicube;
+  double error = 0.01;            ///< relative RMS error that rung adaptive leaves in a row
   std::uint32_t resolution = 256; ///< pixels along the hemicube's edge; even, 16..2048
   double tolerance = 1e-6;        ///< on the estimated relative error of B
   std::uint64_t max_sweeps = 1000000;

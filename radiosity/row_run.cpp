@@ -1,7 +1,5 @@
 #include "radiosity/row_run.h"
 
-#include "radiosity/hemicube/five_views.h"
-
 namespace hemicube::radiosity {
 
 Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64_t total,
@@ -13,7 +11,8 @@ Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64
   done_ = 0;
   const raster::Kernels& kernels =
       options.kernels != nullptr ? *options.kernels : raster::best_kernels();
-  HC_TRY(setup_.init(polygons_of(patches), options.resolution, kernels, options.hash_items));
+  HC_TRY(setup_.init(patches, options.rung, options.error, options.resolution, kernels,
+                     options.hash_items));
   return builders_.init(executor.worker_count());
 }
 
@@ -29,7 +28,7 @@ Status RowRun::report() {
   if (progress_ == nullptr || progress_->rows(done, total_))
     return {};
   return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_,
-                       " hemicubes");
+                       " rows");
 }
 
 } // namespace hemicube::radiosity

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiosity/form_factor/row_builder.h"
+#include "radiosity/form_factor/ladder_row.h"
 #include "radiosity/radiosity.h"
 #include "raster/fp_environment.h"
 
@@ -18,28 +18,30 @@ public:
   Status init(const PatchSet& patches, const Options& options, std::uint64_t total,
               Executor& executor, Progress* progress);
 
-  /// Calls take(index, row, builder) for the indices 0 .. count-1; those of one block of
+  /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
   /// the first row, after the last one, and in between.
-  /// @param view_of  bool(index, raster::View*); false if no row is wanted there: take then gets an
-  ///                 empty row and a null builder
-  template <typename ViewOf, typename Take>
-  Status build(std::uint64_t count, ViewOf view_of, Take take) {
+  /// @param place_of  bool(index, RowPlace*); false if no row is wanted there: take then gets an
+  ///                  empty row and null facts
+  template <typename PlaceOf, typename Take>
+  Status build(std::uint64_t count, PlaceOf place_of, Take take) {
     constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
     const auto build_block = [&](std::size_t block, std::size_t worker) {
       const FloatEnvironment environment;
-      RowBuilder& builder = builders_[worker];
+      LadderRow& builder = builders_[worker];
       if (!builder.ready())
         HC_TRY(builder.init(setup_));
       const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
       for (std::uint64_t index = block * kRows; index < end; ++index) {
-        raster::View view;
-        if (!view_of(index, &view)) {
+        RowPlace place;
+        if (!place_of(index, &place)) {
           HC_TRY(take(index, RowView(), nullptr));
           continue;
         }
-        const RowView row = builder.build(view);
-        HC_TRY(take(index, row, &builder));
+        RowView row;
+        RowFacts facts;
+        HC_TRY(builder.build(place, &row, &facts));
+        HC_TRY(take(index, row, &facts));
         HC_TRY(count_row());
       }
       return Status();
@@ -53,8 +55,8 @@ private:
   Status count_row();
   Status report();
 
-  RowSetup setup_;
-  FixedArray<RowBuilder> builders_;
+  LadderSetup setup_;
+  FixedArray<LadderRow> builders_;
   Executor* executor_ = nullptr;
   Progress* progress_ = nullptr;
   std::uint64_t total_ = 0;

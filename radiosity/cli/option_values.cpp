@@ -114,6 +114,14 @@ RowSelection parse_rows(std::string_view text) {
   return rows;
 }
 
+Rung parse_rung(std::string_view name) {
+  for (const Rung rung :
+       {Rung::kHemicube, Rung::kAnalytic, Rung::kArea, Rung::kAdaptive, Rung::kExact})
+    if (name == rung_name(rung))
+      return rung;
+  throw BadValue("is not one of hemicube, analytic, area, adaptive, exact");
+}
+
 const raster::Kernels* parse_isa(std::string_view name) {
   const raster::Kernels* kernels = raster::kernels_by_name(name);
   if (kernels == nullptr)

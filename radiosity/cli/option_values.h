@@ -31,6 +31,9 @@ std::uint32_t parse_resolution(std::string_view text);
 /// "every:N" or "I,J,K".
 RowSelection parse_rows(std::string_view text);
 
+/// "hemicube", "analytic", ...
+Rung parse_rung(std::string_view name);
+
 /// The kernels of an instruction set by name, if this machine has it.
 const raster::Kernels* parse_isa(std::string_view name);
 

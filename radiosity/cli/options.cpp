@@ -109,6 +109,13 @@ private:
         &app_, "--resolution", "N", "pixels along the hemicube's edge: even, 16..2048 [256]",
         [&](const std::string& text) { options.resolution = parse_resolution(text); }));
     common.push_back(add_value(
+        &app_, "--rung", "NAME",
+        "how exact form factors are: hemicube, analytic, area, adaptive, exact [hemicube]",
+        [&](const std::string& text) { options.rung = parse_rung(text); }));
+    common.push_back(add_value(
+        &app_, "--error", "X", "relative error that rung adaptive aims at [0.01]",
+        [&](const std::string& text) { options.error = parse_real_number(text, 0, 1); }));
+    common.push_back(add_value(
         &app_, "--tolerance", "X", "relative error of the radiosity the solver may leave [1e-6]",
         [&](const std::string& text) { options.tolerance = parse_real_number(text, 0, 1); }));
     common.push_back(add_value(

@@ -35,6 +35,16 @@ double row_sum(const RowView& row) noexcept {
                                      [=](std::size_t k) { return static_cast<double>(values[k]); });
 }
 
+void fit_scale(double share, RowView* row) noexcept {
+  row->scale = 1;
+  const double sum = row_sum(*row);
+  if (sum == 0)
+    return;
+  row->scale = share / sum;
+  while (row_sum(*row) > share)
+    row->scale *= 1 - 0x1p-53;
+}
+
 std::uint64_t hash_row(const RowView& row) noexcept {
   // Four chains side by side: one alone would be waited for.
   Hash chains[4];

@@ -27,6 +27,10 @@ inline double row_dot(const RowView& row, const double* x, std::size_t stride = 
 /// The sum of a row's form factors.
 double row_sum(const RowView& row) noexcept;
 
+/// Sets the scale of a row so that it sums to `share`, and never to more: a row above 1 would make
+/// light from nothing.
+void fit_scale(double share, RowView* row) noexcept;
+
 /// Hash of everything a row holds.
 std::uint64_t hash_row(const RowView& row) noexcept;
 

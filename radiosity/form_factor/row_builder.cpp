@@ -87,12 +87,7 @@ RowView RowBuilder::close_row() {
   row.values = values_.span().first(count);
   row.space = static_cast<double>(space_) * kUnit;
   row.back_side = static_cast<double>(back_side_) * kUnit;
-  row.scale = 1;
-  const double share = static_cast<double>(kFormFactorUnit - space_ - back_side_) * kUnit;
-  if (count != 0)
-    row.scale = share / row_sum(row);
-  while (row_sum(row) > share) // by a rounding: a row above 1 would make light from nothing
-    row.scale *= 1 - 0x1p-53;
+  fit_scale(static_cast<double>(kFormFactorUnit - space_ - back_side_) * kUnit, &row);
   return row;
 }
 

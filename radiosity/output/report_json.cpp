@@ -87,7 +87,10 @@ Json hashes_json(const Certificate& certificate) {
 Json options_json(const ReportParts& parts) {
   const Options& options = parts.options;
   Json json = Json::object();
+  json["rung"] = rung_name(options.rung);
   json["resolution"] = options.resolution;
+  if (options.rung == Rung::kAdaptive)
+    set(&json, "error", options.error);
   if (parts.max_edge != 0)
     json["max_edge"] = parts.max_edge;
   if (parts.certificate.solved) {
@@ -105,6 +108,7 @@ Json result_json(const ReportParts& parts) {
   json["patches"] = certificate.patches;
   json["hemicubes"] = certificate.hemicubes;
   json["nonzeros"] = certificate.nonzeros;
+  json["subpixel_patches"] = certificate.subpixel_patches;
   json["row_sum_raw"] = range_json(certificate.row_sum_raw);
   json["row_sum"] = range_json(certificate.row_sum);
   json["space"] = fraction_json(certificate.space);

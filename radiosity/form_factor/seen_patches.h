@@ -1,0 +1,50 @@
+#pragma once
+
+#include "radiosity/form_factor/scene_facets.h"
+#include "radiosity/form_factor/visible_part.h"
+
+namespace hemicube::radiosity {
+
+/// A piece of a patch, or the back of a face, that a receiver may see, and what may be in between.
+struct SeenTarget {
+  const PatchPiece* piece = nullptr; ///< null for the back of a face
+  std::uint32_t face = 0;
+  bool is_back() const noexcept { return piece == nullptr; }
+  std::size_t first_blocker = 0, blocker_count = 0; ///< none: provably seen whole
+};
+
+/// Finds what a receiver may see, by geometry alone. One per worker.
+class SeenTargets {
+public:
+  /// @param receiver  a patch, or a point: a facet with a single corner
+  /// @param own_face  the face the receiver lies on, which it does not see; kNoFace for none
+  /// @param is_wanted  [face] 0 for those to leave out; empty = all are wanted
+  /// @return kOutOfMemory
+  Status find(const SceneFacets& scene, const Facet& receiver, std::uint32_t own_face,
+              std::span<const std::uint8_t> is_wanted);
+
+  std::span<const SeenTarget> targets() const noexcept { return targets_.span(); }
+  std::span<const Blocker> blockers_of(const SeenTarget& target) const noexcept {
+    return blockers_.span().subspan(target.first_blocker, target.blocker_count);
+  }
+
+  static constexpr std::uint32_t kNoFace = 0xffffffffu;
+
+private:
+  Status find_front(const SceneFacets& scene, const Facet& receiver, std::uint32_t face);
+  Status find_back(const SceneFacets& scene, const Facet& receiver, std::uint32_t face);
+  Status gather(const SceneFacets& scene, Shaft* shaft, std::uint32_t face, bool* is_hidden);
+  Status add_piece(const SceneFacets& scene, const Facet& receiver, std::uint32_t face,
+                   const PatchPiece& piece);
+
+  Buffer<SeenTarget> targets_;
+  Buffer<Blocker> blockers_;
+  Buffer<std::uint32_t> between_; ///< faces that may lie between receiver and the face at hand
+  std::uint32_t own_face_ = kNoFace;
+};
+
+/// The same facet seen from behind: corners reversed.
+/// @param corners  receives them
+Facet reversed(const Facet& facet, ConvexPolygon* corners) noexcept;
+
+} // namespace hemicube::radiosity
