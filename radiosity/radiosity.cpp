@@ -146,12 +146,8 @@ Status SceneSolver::prepare() {
 }
 
 Status SceneSolver::build_matrix() {
-  return run_.build(
-      patches_.patch_count(),
-      [&](std::uint64_t i, RowPlace* place) {
-        place->patch = static_cast<std::uint32_t>(i);
-        return !problem_.is_black(i);
-      },
+  return run_.build_all(
+      patches_.patch_count(), [&](std::uint32_t i) { return !problem_.is_black(i); },
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
@@ -177,12 +173,9 @@ Status SceneSolver::solve(Certificate* certificate) {
 
 Status SceneSolver::gather_black_irradiance() {
   const std::uint32_t bands = light_.band_count;
-  return run_.build(
+  return run_.build_all(
       patches_.patch_count(),
-      [&](std::uint64_t i, RowPlace* place) {
-        place->patch = static_cast<std::uint32_t>(i);
-        return options_.black_irradiance && problem_.is_black(i);
-      },
+      [&](std::uint32_t i) { return options_.black_irradiance && problem_.is_black(i); },
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
@@ -248,8 +241,9 @@ void SceneSolver::balance_energy(const Solution& s, Certificate* certificate) co
 }
 
 /// Rows of any receivers into a matrix, row k at place_of(k).
+/// @param is_all  row k is that of patch k, and there is one for each
 template <typename PlaceOf>
-Status compute_rows(const PatchSet& patches, std::uint64_t count, PlaceOf place_of,
+Status compute_rows(const PatchSet& patches, std::uint64_t count, bool is_all, PlaceOf place_of,
                     const Options& options, Executor& executor, Progress* progress,
                     FormFactorMatrix* matrix, Certificate* certificate) {
   const FloatEnvironment environment;
@@ -258,16 +252,17 @@ Status compute_rows(const PatchSet& patches, std::uint64_t count, PlaceOf place_
   HC_TRY(run.init(patches, options, count, executor, progress));
   HC_TRY(statistics.init(count, options.hash_items));
   HC_TRY(matrix->init(count, patches.patch_count()));
-  HC_TRY(run.build(
-      count,
-      [&](std::uint64_t k, RowPlace* place) {
-        *place = place_of(k);
-        return true;
-      },
-      [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
-        statistics.record(k, row, *facts);
-        return matrix->append_row(k / FormFactorMatrix::kBlockRows, row);
-      }));
+  const auto take = [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
+    statistics.record(k, row, *facts);
+    return matrix->append_row(k / FormFactorMatrix::kBlockRows, row);
+  };
+  const auto place = [&](std::uint64_t k, RowPlace* at) {
+    *at = place_of(k);
+    return true;
+  };
+  HC_TRY(is_all ? run.build_all(
+                      patches.patch_count(), [](std::uint32_t) { return true; }, take)
+                : run.build(count, place, take));
   *certificate = {};
   certificate->patches = patches.patch_count();
   statistics.summarise(certificate);
@@ -303,7 +298,7 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
     return rows.empty() ? static_cast<std::uint32_t>(k) : rows[k];
   };
   HC_TRY(compute_rows(
-      patches, rows.empty() ? patches.patch_count() : rows.size(),
+      patches, rows.empty() ? patches.patch_count() : rows.size(), rows.empty(),
       [&](std::uint64_t k) { return RowPlace{patch_of(k)}; }, options, executor, progress,
       matrix, certificate));
   if (rows.empty()) {
@@ -328,7 +323,7 @@ Status compute_point_form_factors(const PatchSet& patches, std::span<const Recei
       return Status::error(StatusCode::kInvalidArgument, "point ", k, " has no normal");
   }
   return compute_rows(
-      patches, points.size(),
+      patches, points.size(), false,
       [&](std::uint64_t k) {
         return RowPlace{RowPlace::kNoPatch, points[k].position, points[k].normal};
       },

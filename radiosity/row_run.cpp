@@ -16,6 +16,24 @@ Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64
   return builders_.init(executor.worker_count());
 }
 
+Status RowRun::find_pairs(std::uint32_t patch_count) {
+  HC_TRY(pairs_.init(patch_count));
+  pair_facts_.clear();
+  HC_TRY(pair_facts_.resize(patch_count));
+  const auto find = [&](std::uint64_t index, LadderRow& builder, RowView*, RowFacts* facts, bool*) {
+    const auto patch = static_cast<std::uint32_t>(index);
+    ReceiverExchange exchange;
+    HC_TRY(builder.find_pairs(patch, &exchange, facts));
+    pair_facts_[patch] = *facts;
+    return pairs_.append_row(patch / ExchangeTable::kBlockRows, exchange);
+  };
+  static_assert(ExchangeTable::kBlockRows == FormFactorMatrix::kBlockRows);
+  HC_TRY(for_each_row(
+      patch_count, find, [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); },
+      true));
+  return pairs_.transpose();
+}
+
 Status RowRun::count_row() {
   ++done_;
   // A worker that finds another one reporting has better things to do than to wait.

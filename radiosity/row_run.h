@@ -25,6 +25,44 @@ public:
   ///                  empty row and null facts
   template <typename PlaceOf, typename Take>
   Status build(std::uint64_t count, PlaceOf place_of, Take take) {
+    const auto build_row = [&](std::uint64_t index, LadderRow& builder, RowView* row,
+                               RowFacts* facts, bool* is_wanted) {
+      RowPlace place;
+      *is_wanted = place_of(index, &place);
+      return *is_wanted ? builder.build(place, row, facts) : Status();
+    };
+    return for_each_row(count, build_row, take, true);
+  }
+
+  /// The same for all patches, each its own row: finds each pair of patches once on rungs where
+  /// both rows say the same of it.
+  /// @param is_wanted  bool(patch)
+  template <typename IsWanted, typename Take>
+  Status build_all(std::uint32_t patch_count, IsWanted is_wanted, Take take) {
+    if (!setup_.shares_pairs())
+      return build(
+          patch_count,
+          [&](std::uint64_t index, RowPlace* place) {
+            place->patch = static_cast<std::uint32_t>(index);
+            return is_wanted(place->patch);
+          },
+          take);
+    if (pairs_.empty())
+      HC_TRY(find_pairs(patch_count));
+    const auto assemble_row = [&](std::uint64_t index, LadderRow& builder, RowView* row,
+                                  RowFacts* facts, bool* wanted) {
+      const auto patch = static_cast<std::uint32_t>(index);
+      *wanted = is_wanted(patch);
+      *facts = pair_facts_[patch];
+      return *wanted ? builder.assemble(pairs_.row(patch), pairs_.others(patch), row, facts)
+                     : Status();
+    };
+    return for_each_row(patch_count, assemble_row, take, false);
+  }
+
+private:
+  template <typename MakeRow, typename Take>
+  Status for_each_row(std::uint64_t count, MakeRow make_row, Take take, bool counts) {
     constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
     const auto build_block = [&](std::size_t block, std::size_t worker) {
       const FloatEnvironment environment;
@@ -33,16 +71,13 @@ public:
         HC_TRY(builder.init(setup_));
       const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
       for (std::uint64_t index = block * kRows; index < end; ++index) {
-        RowPlace place;
-        if (!place_of(index, &place)) {
-          HC_TRY(take(index, RowView(), nullptr));
-          continue;
-        }
         RowView row;
         RowFacts facts;
-        HC_TRY(builder.build(place, &row, &facts));
-        HC_TRY(take(index, row, &facts));
-        HC_TRY(count_row());
+        bool is_wanted = true;
+        HC_TRY(make_row(index, builder, &row, &facts, &is_wanted));
+        HC_TRY(take(index, row, is_wanted ? &facts : nullptr));
+        if (is_wanted && counts)
+          HC_TRY(count_row());
       }
       return Status();
     };
@@ -51,12 +86,14 @@ public:
     return report();
   }
 
-private:
+  Status find_pairs(std::uint32_t patch_count);
   Status count_row();
   Status report();
 
   LadderSetup setup_;
   FixedArray<LadderRow> builders_;
+  ExchangeTable pairs_;        ///< once they were found
+  Buffer<RowFacts> pair_facts_; ///< [patch]
   Executor* executor_ = nullptr;
   Progress* progress_ = nullptr;
   std::uint64_t total_ = 0;

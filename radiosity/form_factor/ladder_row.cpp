@@ -1,6 +1,5 @@
 #include "radiosity/form_factor/ladder_row.h"
 
-#include "radiosity/form_factor/area_to_area.h"
 #include "radiosity/form_factor/lambert.h"
 #include "radiosity/hemicube/five_views.h"
 
@@ -26,13 +25,23 @@ constexpr double kFineIntegral = 1e-6;
 /// The errors of the shares of pairs are estimated from above and add up as squares.
 constexpr double kSharePerTarget = 0.25;
 
-constexpr std::uint32_t kFewPoints = 4, kManyPoints = 4096, kMostPoints = 1u << 20;
+/// Cells that carry more than this of a form factor, or of the integral on rung exact, are always
+/// cut: what their points do not show must not matter.
+constexpr double kUnseenPerTarget = 0.4;
+constexpr double kExactPart = 1.0 / 256;
+
+constexpr std::uint32_t kManyPoints = 4096, kMostPoints = 1u << 20;
 
 ConvexPolygon polygon_of(const Facet& facet) {
   ConvexPolygon polygon;
   for (const Vec3& corner : facet.corners)
     polygon.append(corner);
   return polygon;
+}
+
+raster::View view_of(const PatchSet& patches, const RowPlace& place) {
+  return place.patch != RowPlace::kNoPatch ? hemicube_view(patches, place.patch)
+                                           : hemicube_view(place.position, place.normal);
 }
 
 bool is_point(const Facet& receiver) {
@@ -65,6 +74,7 @@ Status LadderRow::init(const LadderSetup& setup) {
     HC_TRY(pixels_.resize(count));
     HC_TRY(columns_.resize(count));
     HC_TRY(values_.resize(count));
+    HC_TRY(integrator_.init(setup.facets.face_count(), setup.facets.tolerance()));
     if (setup.facets.face_count() > kManyFaces)
       HC_TRY(seen_faces_.resize(setup.facets.face_count()));
   }
@@ -74,41 +84,43 @@ Status LadderRow::init(const LadderSetup& setup) {
 
 Status LadderRow::build(const RowPlace& place, RowView* row, RowFacts* facts) {
   *facts = {};
-  const raster::View view = place.patch != RowPlace::kNoPatch
-                                ? hemicube_view(*setup_->patches, place.patch)
-                                : hemicube_view(place.position, place.normal);
   if (setup_->rung != Rung::kHemicube) {
-    HC_TRY(build_by_facets(view, place, facts));
-    *row = store();
-    return {};
+    HC_TRY(find_exchange(place, false, facts));
+    return assemble(exchange_, {}, row, facts);
   }
-  *row = hemicube_.build(view);
+  *row = hemicube_.build(view_of(*setup_->patches, place));
   facts->hemicubes = 1;
   facts->raw_sum = row_sum(*row); // integer sums close by themselves
   facts->item_hash = hemicube_.item_hash();
   return {};
 }
 
-Status LadderRow::build_by_facets(const raster::View& view, const RowPlace& place,
-                                  RowFacts* facts) {
-  space_ = back_side_ = error_sum_ = error_squares_ = 0;
+Status LadderRow::find_pairs(std::uint32_t patch, ReceiverExchange* exchange, RowFacts* facts) {
+  *facts = {};
+  HC_TRY(find_exchange({patch}, true, facts));
+  *exchange = exchange_;
+  return {};
+}
+
+Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* facts) {
+  const raster::View view = view_of(*setup_->patches, place);
+  const bool on_patch = place.patch != RowPlace::kNoPatch;
+  pairs_.clear();
+  exchange_ = {};
   rendered_ = false;
-  touched_.clear();
   if (!seen_faces_.empty())
     HC_TRY(mark_seen_faces(view, facts));
-  const std::uint32_t own_face = place.patch == RowPlace::kNoPatch
-                                     ? SeenTargets::kNoFace
-                                     : setup_->facets.face_of(place.patch);
-  if (place.patch == RowPlace::kNoPatch || setup_->rung == Rung::kAnalytic) {
-    const Facet eye = Facet::of({&view.eye, 1}, view.axis_z);
-    HC_TRY(add_receiver(view, eye, 0, 1, own_face, facts));
-  } else {
-    const double area = setup_->patches->area[place.patch];
+  const std::uint32_t own_face =
+      on_patch ? setup_->facets.face_of(place.patch) : SeenTargets::kNoFace;
+  if (on_patch && setup_->rung != Rung::kAnalytic) {
+    exchange_.area = setup_->patches->area[place.patch];
     for (const PatchPiece& piece : setup_->facets.pieces_of(place.patch))
-      HC_TRY(add_receiver(view, piece.facet, piece.area, piece.area / area, own_face, facts));
+      HC_TRY(add_receiver(view, piece, own_face, own_only ? &piece : nullptr, facts));
+  } else {
+    const PatchPiece eye{place.patch, 1, Facet::of({&view.eye, 1}, view.axis_z)};
+    HC_TRY(add_receiver(view, eye, own_face, nullptr, facts));
   }
-  facts->error = std::sqrt(error_squares_);
-  close(facts);
+  exchange_.pairs = pairs_.span();
   for (const std::uint32_t patch : pixel_patches_)
     pixels_[patch] = 0;
   pixel_patches_.clear();
@@ -138,12 +150,12 @@ Status LadderRow::mark_seen_faces(const raster::View& view, RowFacts* facts) {
   return {};
 }
 
-/// Adds what one piece of the receiver, `part` of its area, sees.
-Status LadderRow::add_receiver(const raster::View& view, const Facet& receiver, double area,
-                               double part, std::uint32_t own_face, RowFacts* facts) {
-  HC_TRY(seen_.find(setup_->facets, receiver, own_face, seen_faces_.span()));
-  const bool by_pixels = setup_->rung <= Rung::kArea;
-  if (by_pixels)
+/// Adds what one piece of the receiver exchanges.
+Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& receiver,
+                               std::uint32_t own_face, const PatchPiece* owner, RowFacts* facts) {
+  HC_TRY(seen_.find(setup_->facets, receiver.facet, own_face, seen_faces_.span(), owner));
+  integrator_.set_receiver(receiver.facet);
+  if (setup_->rung <= Rung::kArea)
     for (const SeenTarget& target : seen_.targets())
       rendered_ |= target.blocker_count != 0;
   if (rendered_)
@@ -151,99 +163,114 @@ Status LadderRow::add_receiver(const raster::View& view, const Facet& receiver, 
   for (const SeenTarget& target : seen_.targets()) {
     if (target.is_back() && rendered_)
       continue; // the item buffer shows them
-    double whole = 0;
-    HC_TRY(find_whole(receiver, area, target, &whole));
-    if (!(whole > 0))
+    ConvexPolygon corners;
+    const Facet facet = target.is_back() ? reversed(setup_->facets.face(target.face), &corners)
+                                         : target.piece->facet;
+    const AreaIntegral whole = find_whole(receiver, facet);
+    if (!(whole.value > 0))
       continue;
     VisibleShare share;
     if (target.blocker_count != 0)
-      HC_TRY(find_share(view, receiver, area, target, whole, &share, facts));
-    const double value = part * whole * share.share;
-    const double error = part * whole * share.error;
-    error_sum_ += error;
-    error_squares_ += error * error;
-    if (target.is_back())
-      back_side_ += value;
-    else if (value > 0)
-      HC_TRY(target.blocker_count == 0 ? add(target.piece->patch, value, 0)
-                                       : add(target.piece->patch, 0, value));
+      HC_TRY(find_share(view, receiver, target, facet, whole.value, &share, facts));
+    const double value = whole.value * share.share;
+    const double error = whole.error + whole.value * share.error;
+    if (target.is_back()) {
+      exchange_.back_side += value;
+      exchange_.back_side_error += error;
+    } else if (value > 0 || error > 0) {
+      HC_TRY(pairs_.push_back({target.piece->patch, target.blocker_count != 0,
+                               static_cast<float>(error), value}));
+    }
   }
   return {};
 }
 
-Status LadderRow::find_whole(const Facet& receiver, double area, const SeenTarget& target,
-                             double* whole) {
-  ConvexPolygon corners;
-  const Facet facet = target.is_back() ? reversed(setup_->facets.face(target.face), &corners)
-                                       : target.piece->facet;
-  if (is_point(receiver)) {
-    *whole = point_to_polygon(receiver.corners[0], receiver.plane.normal, facet.corners);
-    return {};
-  }
+AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const Facet& target) const {
+  const Facet& facet = receiver.facet;
+  if (is_point(facet))
+    return {point_to_polygon(facet.corners[0], facet.plane.normal, target.corners), 0};
   const double accuracy = setup_->rung == Rung::kExact ? kExactIntegral : kFineIntegral;
-  const AreaIntegral integral =
-      exchange_area(polygon_of(receiver), receiver.plane.normal, polygon_of(facet),
-                    facet.plane.normal, accuracy);
-  *whole = integral.value / area;
-  error_sum_ += integral.error / area;
-  error_squares_ += integral.error / area * (integral.error / area);
-  return {};
+  return exchange_area(polygon_of(facet), facet.plane.normal, polygon_of(target),
+                       target.plane.normal, accuracy);
 }
 
 /// How much of a target gets past what may be in between.
-Status LadderRow::find_share(const raster::View& view, const Facet& receiver, double area,
-                             const SeenTarget& target, double whole, VisibleShare* share,
-                             RowFacts* facts) {
-  const bool by_pixels = setup_->rung <= Rung::kArea;
-  if (!by_pixels) {
-    const bool exact = setup_->rung == Rung::kExact;
-    return integrate_share(receiver, area, target,
-                           exact ? kExactShare : kSharePerTarget * setup_->target,
-                           exact ? kMostPoints : kManyPoints, share);
-  }
-  const double pixel = 1 / (3 * static_cast<double>(setup_->hemicube.delta.resolution()) *
-                            setup_->hemicube.delta.resolution());
+Status LadderRow::find_share(const raster::View& view, const PatchPiece& receiver,
+                             const SeenTarget& target, const Facet& facet, double whole,
+                             VisibleShare* share, RowFacts* facts) {
+  if (setup_->rung > Rung::kArea)
+    return integrate_share(receiver, target, facet, effort_for(receiver.area, target, whole),
+                           share);
+  const double resolution = setup_->hemicube.delta.resolution();
+  const double pixel = 1 / (3 * resolution * resolution);
   const std::uint32_t patch = target.piece->patch;
   const bool has_one_piece = setup_->facets.pieces_of(patch).size() == 1;
-  const double from_eye = point_to_polygon(view.eye, view.axis_z, target.piece->facet.corners);
+  const double from_eye = point_to_polygon(view.eye, view.axis_z, facet.corners);
   if (has_one_piece && from_eye > kFewPixels * pixel) {
-    share->share = std::fmin(1, static_cast<double>(pixels_[patch]) / from_eye);
+    const double seen = static_cast<double>(pixels_[patch]) / from_eye;
+    share->share = seen < 1 ? seen : 1;
     return {};
   }
-  HC_TRY(integrate_share(receiver, area, target, 1, kFewPoints, share));
-  share->error = 0;
-  facts->subpixel_patches += pixels_[patch] == 0 && share->share * whole > 0 ? 1 : 0;
+  HC_TRY(integrate_share(receiver, target, facet, {1, 1, 1}, share));
+  facts->subpixel_patches += pixels_[patch] == 0 && share->share > 0 ? 1 : 0;
   return {};
 }
 
-Status LadderRow::integrate_share(const Facet& receiver, double area, const SeenTarget& target,
-                                  double tolerance, std::uint32_t max_points,
-                                  VisibleShare* share) {
-  const auto blockers = seen_.blockers_of(target);
-  ConvexPolygon corners;
-  const Facet facet = target.is_back() ? reversed(setup_->facets.face(target.face), &corners)
-                                       : target.piece->facet;
-  if (is_point(receiver)) {
-    PointFormFactors at;
-    HC_TRY(visible_.find(receiver.corners[0], receiver.plane.normal, facet, blockers, &at));
-    share->share = at.whole > 0 ? at.visible / at.whole : 0;
-    return {};
-  }
-  // The points lie on the smaller of the two, where less varies; both rows of a pair choose alike.
-  const bool from_target =
-      !target.is_back() &&
-      (target.piece->area < area ||
-       (target.piece->area == area && target.piece->facet.corners.data() < receiver.corners.data()));
-  return from_target ? integrator_.find(facet, receiver, blockers, tolerance, max_points, share)
-                     : integrator_.find(receiver, facet, blockers, tolerance, max_points, share);
+/// The same for both rows of a pair.
+Effort LadderRow::effort_for(double area, const SeenTarget& target, double whole) const {
+  if (setup_->rung == Rung::kExact)
+    return {kExactShare, kExactPart, kMostPoints};
+  // The larger of the two form factors of the pair.
+  const double smaller =
+      !target.is_back() && target.piece->area < area ? target.piece->area : area;
+  const double largest = whole / smaller;
+  return {kSharePerTarget * setup_->target, kUnseenPerTarget * setup_->target / largest,
+          kManyPoints};
 }
 
-Status LadderRow::add(std::uint32_t patch, double proven, double estimated) {
-  Entry& entry = entries_[patch];
+Status LadderRow::integrate_share(const PatchPiece& receiver, const SeenTarget& target,
+                                  const Facet& facet, const Effort& effort, VisibleShare* share) {
+  const auto blockers = seen_.blockers_of(target);
+  if (is_point(receiver.facet))
+    return integrator_.find_at_point(facet, blockers, share);
+  if (target.is_back() || owns_pair(receiver, *target.piece))
+    return integrator_.find(facet, blockers, effort, share);
+  integrator_.set_receiver(facet);
+  const Status status = integrator_.find(receiver.facet, blockers, effort, share);
+  integrator_.set_receiver(receiver.facet);
+  return status;
+}
+
+Status LadderRow::assemble(const ReceiverExchange& own, std::span<const PairExchange> others,
+                           RowView* row, RowFacts* facts) {
+  touched_.clear();
+  error_sum_ = error_squares_ = 0;
+  if (!rendered_)
+    space_ = 0;
+  for (const auto pairs : {own.pairs, others})
+    for (const PairExchange& pair : pairs)
+      HC_TRY(add(pair, own.area));
+  if (!rendered_)
+    back_side_ = own.back_side / own.area;
+  const double back_side_error = own.back_side_error / own.area;
+  error_sum_ += back_side_error;
+  error_squares_ += back_side_error * back_side_error;
+  facts->error = std::sqrt(error_squares_);
+  close(facts);
+  *row = store();
+  return {};
+}
+
+Status LadderRow::add(const PairExchange& pair, double area) {
+  const double error = static_cast<double>(pair.error) / area;
+  error_sum_ += error;
+  error_squares_ += error * error;
+  if (!(pair.value > 0))
+    return {};
+  Entry& entry = entries_[pair.patch];
   if (entry.proven == 0 && entry.estimated == 0)
-    HC_TRY(touched_.push_back(patch));
-  entry.proven += proven;
-  entry.estimated += estimated;
+    HC_TRY(touched_.push_back(pair.patch));
+  (pair.is_estimated ? entry.estimated : entry.proven) += pair.value / area;
   return {};
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "radiosity/form_factor/area_to_area.h"
+#include "radiosity/form_factor/exchange_table.h"
 #include "radiosity/form_factor/row_builder.h"
 #include "radiosity/form_factor/rung.h"
 #include "radiosity/form_factor/seen_patches.h"
@@ -18,6 +20,9 @@ struct LadderSetup {
   /// @param patches_in  outlive this
   Status init(const PatchSet& patches_in, Rung rung_in, double target_in,
               std::uint32_t resolution, const raster::Kernels& kernels, bool hash_items);
+
+  /// True if both rows of a pair of patches say the same of it, so that it need be found only once.
+  bool shares_pairs() const noexcept { return rung >= Rung::kAdaptive; }
 };
 
 /// Where a row is computed: on a patch, or at a point.
@@ -48,24 +53,33 @@ public:
   /// @param row  its spans are valid until the next call
   Status build(const RowPlace& place, RowView* row, RowFacts* facts);
 
+  /// The first half of `build` where all rows are wanted: pairs that belong to a patch.
+  /// @param exchange  its span is valid until the next call
+  Status find_pairs(std::uint32_t patch, ReceiverExchange* exchange, RowFacts* facts);
+
+  /// The second half.
+  /// @param others  the pairs with it that belong to others
+  Status assemble(const ReceiverExchange& own, std::span<const PairExchange> others, RowView* row,
+                  RowFacts* facts);
+
 private:
   /// What a patch gets: what provably nothing is in front of, and what was estimated.
   struct Entry {
     double proven, estimated;
   };
 
-  Status build_by_facets(const raster::View& view, const RowPlace& place, RowFacts* facts);
+  Status find_exchange(const RowPlace& place, bool own_only, RowFacts* facts);
   Status mark_seen_faces(const raster::View& view, RowFacts* facts);
-  Status add_receiver(const raster::View& view, const Facet& receiver, double area, double part,
-                      std::uint32_t own_face, RowFacts* facts);
-  Status find_whole(const Facet& receiver, double area, const SeenTarget& target, double* whole);
-  Status find_share(const raster::View& view, const Facet& receiver, double area,
-                    const SeenTarget& target, double whole, VisibleShare* share,
-                    RowFacts* facts);
-  Status integrate_share(const Facet& receiver, double area, const SeenTarget& target,
-                         double tolerance, std::uint32_t max_points, VisibleShare* share);
+  Status add_receiver(const raster::View& view, const PatchPiece& receiver,
+                      std::uint32_t own_face, const PatchPiece* owner, RowFacts* facts);
+  AreaIntegral find_whole(const PatchPiece& receiver, const Facet& target) const;
+  Status find_share(const raster::View& view, const PatchPiece& receiver, const SeenTarget& target,
+                    const Facet& facet, double whole, VisibleShare* share, RowFacts* facts);
+  Effort effort_for(double area, const SeenTarget& target, double whole) const;
+  Status integrate_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
+                         const Effort& effort, VisibleShare* share);
   Status render(const raster::View& view, RowFacts* facts);
-  Status add(std::uint32_t patch, double proven, double estimated);
+  Status add(const PairExchange& pair, double area);
   void close(RowFacts* facts);
   void scale(double proven, double estimated);
   RowView store();
@@ -76,8 +90,10 @@ private:
   ShareIntegrator integrator_;
   VisiblePart visible_;
 
-  Buffer<Entry> entries_;           ///< [patch] zero between rows
-  Buffer<std::uint32_t> touched_;   ///< patches with an entry, in the order they came
+  Buffer<PairExchange> pairs_;
+  ReceiverExchange exchange_;     ///< of the place at hand
+  Buffer<Entry> entries_;         ///< [patch] zero between rows
+  Buffer<std::uint32_t> touched_; ///< patches with an entry
   double space_ = 0, back_side_ = 0;
   double error_sum_ = 0, error_squares_ = 0;
   bool rendered_ = false; ///< space, back side and pixels_ come from an item buffer

@@ -13,10 +13,11 @@ Facet reversed(const Facet& facet, ConvexPolygon* corners) noexcept {
 }
 
 Status SeenTargets::find(const SceneFacets& scene, const Facet& receiver, std::uint32_t own_face,
-                         std::span<const std::uint8_t> is_wanted) {
+                         std::span<const std::uint8_t> is_wanted, const PatchPiece* owner) {
   targets_.clear();
   blockers_.clear();
   own_face_ = own_face;
+  owner_ = owner;
   const double tolerance = scene.tolerance();
   for (std::uint32_t face = 0; face < scene.face_count(); ++face) {
     const std::uint32_t first = scene.first_face_of(face);
@@ -80,6 +81,8 @@ Status SeenTargets::find_front(const SceneFacets& scene, const Facet& receiver,
 Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, std::uint32_t face,
                               const PatchPiece& piece) {
   const double tolerance = scene.tolerance();
+  if (owner_ != nullptr && !owns_pair(*owner_, piece))
+    return {};
   if (receiver.has_behind(piece.facet, tolerance) || piece.facet.has_behind(receiver, tolerance))
     return {};
   SeenTarget target;
@@ -96,7 +99,7 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
         return {};
       }
       if (verdict == Shaft::Verdict::kMayBlock)
-        HC_TRY(blockers_.push_back({&scene.face(other), false}));
+        HC_TRY(blockers_.push_back({&scene.face(other), other, false}));
     }
   }
   // Of coincident fronts that of the lower id is seen.
@@ -105,7 +108,7 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
       for (const std::uint32_t copy : scene.patches_of(other))
         if (copy < piece.patch)
           for (const PatchPiece& part : scene.pieces_of(copy))
-            HC_TRY(blockers_.push_back({&part.facet, true}));
+            HC_TRY(blockers_.push_back({&part.facet, other, true}));
   target.blocker_count = blockers_.size() - target.first_blocker;
   return targets_.push_back(target);
 }
@@ -123,11 +126,11 @@ Status SeenTargets::find_back(const SceneFacets& scene, const Facet& receiver,
   target.face = face;
   target.first_blocker = blockers_.size();
   for (const std::uint32_t other : between_)
-    HC_TRY(blockers_.push_back({&scene.face(other), false}));
+    HC_TRY(blockers_.push_back({&scene.face(other), other, false}));
   // Fronts hide the backs of coincident faces; of coincident backs the lower one is seen.
   for (const std::uint32_t other : scene.overlaps_of(face))
     if (glm::dot(scene.face(other).plane.normal, back.plane.normal) > 0 || other < face)
-      HC_TRY(blockers_.push_back({&scene.face(other), true}));
+      HC_TRY(blockers_.push_back({&scene.face(other), other, true}));
   target.blocker_count = blockers_.size() - target.first_blocker;
   return targets_.push_back(target);
 }

@@ -5,6 +5,12 @@
 
 namespace hemicube::radiosity {
 
+/// Which of two pieces of one scene a pair belongs to: points are placed on the smaller one, where
+/// less varies.
+inline bool owns_pair(const PatchPiece& a, const PatchPiece& b) noexcept {
+  return a.area < b.area || (a.area == b.area && &a < &b);
+}
+
 /// A piece of a patch, or the back of a face, that a receiver may see, and what may be in between.
 struct SeenTarget {
   const PatchPiece* piece = nullptr; ///< null for the back of a face
@@ -19,9 +25,10 @@ public:
   /// @param receiver  a patch, or a point: a facet with a single corner
   /// @param own_face  the face the receiver lies on, which it does not see; kNoFace for none
   /// @param is_wanted  [face] 0 for those to leave out; empty = all are wanted
+  /// @param owner      leaves out the pieces whose pairs with this one belong to them; null for none
   /// @return kOutOfMemory
   Status find(const SceneFacets& scene, const Facet& receiver, std::uint32_t own_face,
-              std::span<const std::uint8_t> is_wanted);
+              std::span<const std::uint8_t> is_wanted, const PatchPiece* owner);
 
   std::span<const SeenTarget> targets() const noexcept { return targets_.span(); }
   std::span<const Blocker> blockers_of(const SeenTarget& target) const noexcept {
@@ -41,6 +48,7 @@ private:
   Buffer<Blocker> blockers_;
   Buffer<std::uint32_t> between_; ///< faces that may lie between receiver and the face at hand
   std::uint32_t own_face_ = kNoFace;
+  const PatchPiece* owner_ = nullptr;
 };
 
 /// The same facet seen from behind: corners reversed.

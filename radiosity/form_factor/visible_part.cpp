@@ -2,69 +2,56 @@
 
 #include "radiosity/form_factor/lambert.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hemicube::radiosity {
 namespace {
 
-/// Corners closer than this to a cut, relative to the terms of their distance, lie in it.
+/// Corners closer than this to a side of a shadow, relative to the terms of their distance, lie in
+/// it.
 constexpr double kCutTolerance = 0x1p-44;
 
-/// What an eye sees through a blocker: beyond its plane, and inside the planes through the eye and
-/// its edges.
-struct Shadow {
-  static constexpr std::size_t kMaxPlanes = VisiblePart::kMaxBlockerCorners + 1;
-
-  std::size_t plane_count = 0;
-  Plane planes[kMaxPlanes]; ///< inside is in front
-
-  /// Leaves no planes if the blocker is seen edge-on.
-  Shadow(const Vec3& eye, const Blocker& hider) {
-    const Facet& blocker = *hider.facet;
-    const double eye_side = blocker.plane.side(eye);
-    if (eye_side == 0)
-      return;
-    const bool sees_front = eye_side > 0;
-    const std::size_t count = blocker.corners.size();
-    if (!hider.in_target_plane)
-      planes[plane_count++] = {blocker.plane.origin,
-                               sees_front ? -blocker.plane.normal : blocker.plane.normal};
-    for (std::size_t k = 0; k < count; ++k) {
-      const Vec3 a = blocker.corners[k] - eye;
-      const Vec3 b = blocker.corners[k + 1 == count ? 0 : k + 1] - eye;
-      const Vec3 normal = sees_front ? glm::cross(b, a) : glm::cross(a, b);
-      const double length = glm::length(normal);
-      planes[plane_count++] = {eye, length > 0 ? normal / length : normal};
-    }
-  }
-};
-
-/// The plane's value at each corner.
-/// @return the tolerance that goes with them
-double find_sides(const Plane& plane, const ConvexPolygon& polygon, double* side) {
-  double reach = 0;
-  for (int k = 0; k < polygon.count; ++k) {
-    const Vec3 apart = polygon.corners[k] - plane.origin;
-    side[k] = glm::dot(plane.normal, apart);
-    reach = std::fmax(reach, std::fabs(apart.x) + std::fabs(apart.y) + std::fabs(apart.z));
-  }
-  return kCutTolerance * reach;
+double largest_distance(const ConvexPolygon& polygon) {
+  double largest = 0;
+  for (const Vec3& corner : polygon.span())
+    largest = std::max(largest, glm::dot(corner, corner));
+  return std::sqrt(largest);
 }
 
-bool touches(const Shadow& shadow, const ConvexPolygon& polygon) {
-  double side[ConvexPolygon::kMaxCorners];
-  for (std::size_t p = 0; p < shadow.plane_count; ++p) {
-    const double tolerance = find_sides(shadow.planes[p], polygon, side);
+bool reaches(const Shadow& shadow, const ConvexPolygon& polygon, double tolerance) {
+  for (int k = 0; k < shadow.side_count; ++k) {
     bool any_inside = false;
-    for (int k = 0; k < polygon.count; ++k)
-      any_inside |= side[k] > tolerance;
+    for (const Vec3& corner : polygon.span())
+      any_inside |= shadow.sides[k].inside(corner) > tolerance;
     if (!any_inside)
       return false;
   }
-  return shadow.plane_count != 0;
+  return shadow.side_count != 0;
 }
 
 } // namespace
+
+Shadow::Shadow(const Vec3& eye, const Blocker& blocker) noexcept {
+  const Facet& facet = *blocker.facet;
+  const double height = facet.plane.side(eye);
+  if (height == 0)
+    return;
+  const bool sees_front = height > 0;
+  const std::size_t count = facet.corners.size();
+  distance = std::fabs(height);
+  if (!blocker.in_target_plane)
+    sides[side_count++] = {sees_front ? -facet.plane.normal : facet.plane.normal, -distance};
+  Vec3 a = facet.corners[count - 1] - eye;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3 b = facet.corners[k] - eye;
+    const Vec3 normal = sees_front ? glm::cross(b, a) : glm::cross(a, b);
+    const double length = glm::length(normal);
+    if (length > 0)
+      sides[side_count++] = {normal / length, 0};
+    a = b;
+  }
+}
 
 Status VisiblePart::push(const ConvexPolygon& polygon, std::size_t next) {
   HC_TRY(pieces_.push_back({corners_.size(), next}));
@@ -83,27 +70,29 @@ void VisiblePart::pop(ConvexPolygon* polygon, std::size_t* next) {
 }
 
 Status VisiblePart::find(const Vec3& eye, const Vec3& normal, const Facet& target,
-                         std::span<const Blocker> blockers, PointFormFactors* form_factors) {
+                         std::span<const Shadow* const> shadows, PointFormFactors* form_factors) {
   *form_factors = {};
   if (!(target.plane.side(eye) > 0))
     return {};
-  form_factors->whole = std::fmax(0, point_to_polygon(eye, normal, target.corners));
+  const Vec3 origin(0, 0, 0);
   ConvexPolygon polygon;
   for (const Vec3& corner : target.corners)
-    polygon.append(corner);
-  HC_TRY(push(polygon, 0));
+    polygon.append(corner - eye);
+  const double whole = std::max(0.0, point_to_polygon(origin, normal, polygon.span()));
+  const double reach = largest_distance(polygon);
   bool is_whole = true;
-  while (!pieces_.empty()) {
-    std::size_t next = 0;
-    pop(&polygon, &next);
-    for (; next < blockers.size() && !polygon.empty(); ++next) {
-      const Shadow shadow(eye, blockers[next]);
-      if (!touches(shadow, polygon))
+  double visible = 0;
+  for (std::size_t next = 0;;) {
+    for (; next < shadows.size() && !polygon.empty(); ++next) {
+      const Shadow& shadow = *shadows[next];
+      const double tolerance = kCutTolerance * (reach + shadow.distance);
+      if (!reaches(shadow, polygon, tolerance))
         continue;
       is_whole = false;
-      for (std::size_t p = 0; p < shadow.plane_count && !polygon.empty(); ++p) {
+      for (int s = 0; s < shadow.side_count && !polygon.empty(); ++s) {
         double side[ConvexPolygon::kMaxCorners];
-        const double tolerance = find_sides(shadow.planes[p], polygon, side);
+        for (int k = 0; k < polygon.count; ++k)
+          side[k] = shadow.sides[s].inside(polygon.corners[k]);
         ConvexPolygon inside, outside;
         cut(polygon, side, tolerance, &inside, &outside);
         if (!outside.empty())
@@ -113,11 +102,14 @@ Status VisiblePart::find(const Vec3& eye, const Vec3& normal, const Facet& targe
       polygon.count = 0; // what is left is hidden
     }
     if (is_whole)
-      form_factors->visible = form_factors->whole;
+      visible = whole;
     else if (!polygon.empty())
-      form_factors->visible += std::fmax(0, point_to_polygon(eye, normal, polygon.span()));
+      visible += std::max(0.0, point_to_polygon(origin, normal, polygon.span()));
+    if (pieces_.empty())
+      break;
+    pop(&polygon, &next);
   }
-  form_factors->visible = std::fmin(form_factors->visible, form_factors->whole);
+  *form_factors = {whole, std::min(visible, whole)};
   return {};
 }
 

@@ -5,8 +5,14 @@
 namespace hemicube::radiosity {
 namespace {
 
-/// The two-point Gauss rule on 0..1.
-constexpr double kGauss[2] = {0.21132486540518711775, 0.78867513459481288225};
+/// The four points of a cell, from 0 to 1: exact for cubics, as the tensor Gauss rule, which this is
+/// turned by 18 degrees. Shadows mostly run along edges: here no two points share a coordinate, and
+/// coordinates are equally far apart.
+constexpr double kFar = 0.38729833462074168852, kNear = 0.12909944487358056284;
+constexpr double kPoints[4][2] = {{0.5 + kFar, 0.5 + kNear},
+                                  {0.5 - kNear, 0.5 + kFar},
+                                  {0.5 - kFar, 0.5 - kNear},
+                                  {0.5 + kNear, 0.5 - kFar}};
 
 /// A kink between the points of a cell moves their mean by at most about this part of the
 /// difference between them.
@@ -16,99 +22,208 @@ constexpr double kKinkShare = 0.125;
 /// kinks; half of it is said.
 constexpr double kErrorLeft = 0.5;
 
+/// A point of a quadrilateral, and how much area belongs to a unit of u and v there, as a vector.
+struct Spot {
+  Vec3 point, area;
+};
+Spot spot_of(const Vec3* corners, double u, double v) {
+  const Vec3& a = corners[0];
+  const Vec3 ab = corners[1] - a, ad = corners[3] - a;
+  const Vec3 twist = corners[2] - corners[1] - ad;
+  return {a + ab * u + ad * v + twist * (u * v), glm::cross(ab + twist * v, ad + twist * u)};
+}
+
 } // namespace
 
-Status ShareIntegrator::sample(const Cell& cell, Sums* sums) {
-  const Vec3& a = cell.corners[0];
-  const Vec3 ab = cell.corners[1] - a, ad = cell.corners[3] - a;
-  const Vec3 twist = cell.corners[2] - cell.corners[1] - ad;
-  for (const double gu : kGauss)
-    for (const double gv : kGauss) {
-      const double u = cell.u + gu * cell.size, v = cell.v + gv * cell.size;
-      const Vec3 along_u = ab + twist * v, along_v = ad + twist * u;
-      const Vec3 point = a + ab * u + along_v * v;
-      const double weight =
-          glm::dot(glm::cross(along_u, along_v), normal_) * cell.size * cell.size;
-      PointFormFactors at;
-      HC_TRY(visible_.find(point, normal_, *to_, blockers_, &at));
-      ++point_count_;
-      if (!(at.whole > 0))
-        continue;
-      const double share = at.visible / at.whole;
-      sums->least = std::fmin(sums->least, share);
-      sums->most = std::fmax(sums->most, share);
-      sums->whole += weight * at.whole;
-      sums->visible += weight * at.visible;
-    }
+Status ShareIntegrator::init(std::uint32_t face_count, double tolerance) {
+  plane_tolerance_ = tolerance;
+  for (KeptShadows& kept : kept_)
+    HC_TRY(kept.index_of_face.resize(face_count));
   return {};
 }
 
-Status ShareIntegrator::refine(const Cell& cell, const Sums& sums, double tolerance, Sums* refined,
-                               double* error) {
-  const double part = all_ > 0 ? sums.whole / all_ : 0;
-  const double kink = kKinkShare * (sums.most - sums.least) * part;
-  if (!(kink > tolerance) || point_count_ >= point_limit_) {
+/// A fan of quadrilaterals, the last maybe a triangle with a corner twice.
+int ShareIntegrator::split(const ConvexPolygon& polygon, Vec3 (*cells)[4]) noexcept {
+  int count = 0;
+  for (int k = 1; k + 1 < polygon.count; k += 2, ++count) {
+    cells[count][0] = polygon.corners[0];
+    cells[count][1] = polygon.corners[k];
+    cells[count][2] = polygon.corners[k + 1];
+    cells[count][3] = polygon.corners[k + 2 < polygon.count ? k + 2 : 0];
+  }
+  return count;
+}
+
+void ShareIntegrator::set_receiver(const Facet& receiver) noexcept {
+  receiver_ = &receiver;
+  for (KeptShadows& kept : kept_) {
+    kept.shadows.clear();
+    kept.faces.clear();
+  }
+}
+
+/// Fills in_the_way_ with the shadows of blockers seen from a point.
+/// @param kept  what was found at this point before; null for other points
+Status ShareIntegrator::find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept) {
+  in_the_way_.clear();
+  shadows_.clear();
+  const auto keeps = [&](const Blocker& blocker) {
+    return kept != nullptr && !blocker.in_target_plane;
+  };
+  for (std::size_t k = blockers.begin; k < blockers.end; ++k) {
+    const Blocker& blocker = blockers_[k];
+    if (!keeps(blocker)) {
+      HC_TRY(shadows_.push_back(Shadow(eye, blocker)));
+      continue;
+    }
+    std::uint32_t& index = kept->index_of_face[blocker.face];
+    if (index < kept->faces.size() && kept->faces[index] == blocker.face)
+      continue;
+    index = static_cast<std::uint32_t>(kept->faces.size());
+    HC_TRY(kept->faces.push_back(blocker.face));
+    HC_TRY(kept->shadows.push_back(Shadow(eye, blocker)));
+  }
+  std::size_t own = 0; // now that nothing moves any more
+  for (std::size_t k = blockers.begin; k < blockers.end; ++k)
+    HC_TRY(in_the_way_.push_back(keeps(blockers_[k])
+                                     ? &kept->shadows[kept->index_of_face[blockers_[k].face]]
+                                     : &shadows_[own++]));
+  return {};
+}
+
+Status ShareIntegrator::sample(const Cell& cell, Range blockers, bool keeps, Sums* sums) {
+  const Vec3& normal = receiver_->plane.normal;
+  for (int k = 0; k < kCellPoints; ++k) {
+    const Spot spot =
+        spot_of(cell.corners, cell.u + kPoints[k][0] * cell.size, cell.v + kPoints[k][1] * cell.size);
+    const double weight = glm::dot(spot.area, normal) * cell.size * cell.size;
+    HC_TRY(find_shadows(spot.point, blockers, keeps ? &kept_[k] : nullptr));
+    PointFormFactors seen;
+    HC_TRY(visible_.find(spot.point, normal, *to_, in_the_way_.span(), &seen));
+    ++point_count_;
+    if (!(seen.whole > 0))
+      continue;
+    const double share = seen.visible / seen.whole;
+    sums->least = share < sums->least ? share : sums->least;
+    sums->most = share > sums->most ? share : sums->most;
+    sums->whole += weight * seen.whole;
+    sums->visible += weight * seen.visible;
+  }
+  return {};
+}
+
+/// Asks of a part of the receiver what was asked of all of it.
+Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate) {
+  const double u = cell.u, v = cell.v, size = cell.size;
+  const Vec3 corners[4] = {spot_of(cell.corners, u, v).point,
+                           spot_of(cell.corners, u + size, v).point,
+                           spot_of(cell.corners, u + size, v + size).point,
+                           spot_of(cell.corners, u, v + size).point};
+  const Facet facet = Facet::of(corners, receiver_->plane.normal);
+  Shaft shaft(facet, *to_, plane_tolerance_);
+  narrowed->begin = blockers_.size();
+  *fate = Fate::kOpen;
+  for (std::size_t k = blockers.begin; k < blockers.end; ++k) {
+    const Blocker blocker = blockers_[k];
+    const Shaft::Verdict verdict =
+        blocker.in_target_plane ? Shaft::Verdict::kMayBlock : shaft.test(*blocker.facet);
+    if (verdict == Shaft::Verdict::kBlocksAll) {
+      *fate = Fate::kHidden;
+      break;
+    }
+    if (verdict == Shaft::Verdict::kMayBlock)
+      HC_TRY(blockers_.push_back(blocker));
+  }
+  narrowed->end = blockers_.size();
+  if (*fate == Fate::kOpen && narrowed->begin == narrowed->end)
+    *fate = Fate::kSeen;
+  return {};
+}
+
+/// Adds the integral over a cell, whose points are `sums`, to `refined`.
+Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums,
+                               double tolerance, Sums* refined, double* error) {
+  const double part = sums.whole / all_;
+  const double kink = sums.most > sums.least ? kKinkShare * (sums.most - sums.least) * part : 0;
+  if ((kink <= tolerance && part <= largest_part_) || point_count_ >= point_limit_) {
     refined->whole += sums.whole;
     refined->visible += sums.visible;
-    *error += kink > 0 ? kink : 0;
+    *error += kink;
     return {};
   }
+  Range narrowed;
+  Fate fate = Fate::kOpen;
+  HC_TRY(narrow(cell, blockers, &narrowed, &fate));
+  if (fate == Fate::kOpen)
+    HC_TRY(refine_open(cell, narrowed, sums, tolerance, refined, error));
+  refined->whole += fate == Fate::kOpen ? 0 : sums.whole;
+  refined->visible += fate == Fate::kSeen ? sums.whole : 0;
+  while (blockers_.size() > narrowed.begin)
+    blockers_.pop_back();
+  return {};
+}
+
+Status ShareIntegrator::refine_open(const Cell& cell, Range blockers, const Sums& sums,
+                                    double tolerance, Sums* refined, double* error) {
+  const double part = sums.whole / all_;
   Cell quarters[4];
   Sums parts[4], all;
   for (int k = 0; k < 4; ++k) {
     const double half = cell.size / 2;
     quarters[k] = {cell.corners, cell.u + (k % 2) * half, cell.v + (k / 2) * half, half};
-    HC_TRY(sample(quarters[k], &parts[k]));
+    HC_TRY(sample(quarters[k], blockers, false, &parts[k]));
     all.whole += parts[k].whole;
     all.visible += parts[k].visible;
   }
   const double coarse = sums.whole > 0 ? sums.visible / sums.whole : 0;
   const double fine = all.whole > 0 ? all.visible / all.whole : 0;
   const double left = kErrorLeft * std::fabs(fine - coarse) * part;
-  if (left <= tolerance) {
-    // Both agree by chance where the kinks of a cell cancel: what its quarters still show counts.
-    double rest = 0;
+  if (left <= tolerance && part <= 4 * largest_part_) {
+    // Both may agree by chance: what the quarters' own points show counts as well.
+    double rest = left;
     for (const Sums& quarter : parts)
-      rest = std::fmax(rest, kKinkShare * (quarter.most - quarter.least) * quarter.whole / all_);
+      if (quarter.most > quarter.least)
+        rest = std::fmax(rest, kKinkShare * (quarter.most - quarter.least) * quarter.whole / all_);
     if (rest <= tolerance) {
       refined->whole += all.whole;
       refined->visible += all.visible;
-      *error += std::fmax(left, rest);
+      *error += rest;
       return {};
     }
   }
   // Errors of parts are independent: their squares add up.
   for (int k = 0; k < 4; ++k)
-    HC_TRY(refine(quarters[k], parts[k], tolerance / 2, refined, error));
+    HC_TRY(refine(quarters[k], blockers, parts[k], tolerance / 2, refined, error));
   return {};
 }
 
-Status ShareIntegrator::find(const Facet& from, const Facet& to,
-                             std::span<const Blocker> blockers, double tolerance,
-                             std::uint32_t max_points, VisibleShare* share) {
+Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
+                             const Effort& effort, VisibleShare* share) {
   *share = {};
-  normal_ = from.plane.normal;
   to_ = &to;
-  blockers_ = blockers;
-  point_limit_ = point_count_ + max_points;
-  ConvexPolygon whole;
-  for (const Vec3& corner : from.corners)
-    whole.append(corner);
+  HC_TRY(blockers_.assign(blockers));
+  const Range all_blockers{0, blockers.size()};
+  point_limit_ = point_count_ + effort.max_points;
+  largest_part_ = effort.largest_part;
   // Points behind the target see nothing of it: the rule's points go where there is something.
-  const ConvexPolygon seeing = clip(whole, to.plane, 0);
-  constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
-  Vec3 corners[kMaxCells][4];
-  Sums sums[kMaxCells];
-  int cells = 0;
-  for (int k = 1; k + 1 < seeing.count; k += 2, ++cells) {
-    corners[cells][0] = seeing.corners[0];
-    corners[cells][1] = seeing.corners[k];
-    corners[cells][2] = seeing.corners[k + 1];
-    corners[cells][3] = seeing.corners[k + 2 < seeing.count ? k + 2 : 0];
+  ConvexPolygon whole;
+  for (const Vec3& corner : receiver_->corners)
+    whole.append(corner);
+  double side[ConvexPolygon::kMaxCorners];
+  bool is_all_in_front = true;
+  for (int k = 0; k < whole.count; ++k) {
+    side[k] = to.plane.side(whole.corners[k]);
+    is_all_in_front = is_all_in_front && side[k] >= 0;
   }
+  ConvexPolygon seeing;
+  cut(whole, side, 0, &seeing, nullptr);
+  Vec3 corners[kMaxCells][4];
+  const int cells = split(seeing, corners);
+  const bool keeps = is_all_in_front && cells == 1;
+  Sums sums[kMaxCells];
   all_ = 0;
   for (int k = 0; k < cells; ++k) {
-    HC_TRY(sample({corners[k], 0, 0, 1}, &sums[k]));
+    HC_TRY(sample({corners[k], 0, 0, 1}, all_blockers, keeps, &sums[k]));
     all_ += sums[k].whole;
   }
   if (!(all_ > 0))
@@ -116,10 +231,24 @@ Status ShareIntegrator::find(const Facet& from, const Facet& to,
   Sums refined;
   double error = 0;
   for (int k = 0; k < cells; ++k)
-    HC_TRY(refine({corners[k], 0, 0, 1}, sums[k], tolerance, &refined, &error));
+    HC_TRY(refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, &refined,
+                  &error));
   if (refined.whole > 0)
     share->share = refined.visible / refined.whole;
   share->error = error;
+  return {};
+}
+
+Status ShareIntegrator::find_at_point(const Facet& to, std::span<const Blocker> blockers,
+                                      VisibleShare* share) {
+  *share = {};
+  HC_TRY(blockers_.assign(blockers));
+  const Vec3& eye = receiver_->corners[0];
+  HC_TRY(find_shadows(eye, {0, blockers.size()}, nullptr));
+  PointFormFactors seen;
+  HC_TRY(visible_.find(eye, receiver_->plane.normal, to, in_the_way_.span(), &seen));
+  if (seen.whole > 0)
+    share->share = seen.visible / seen.whole;
   return {};
 }
 

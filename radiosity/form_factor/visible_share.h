@@ -10,22 +10,34 @@ struct VisibleShare {
   double error = 0; ///< estimate of |share - exact|
 };
 
-/// Integrates exact visibility from points over a polygon. One per worker.
+/// How hard to try.
+struct Effort {
+  double tolerance = 1;    ///< on the error, > 0
+  double largest_part = 1; ///< no cell that carries more of the integral is taken as it is: what
+                           ///< few points show alike may differ in between
+  std::uint32_t max_points = 1; ///< about as many points are spent at most
+};
+
+/// Integrates exact visibility from points over a receiver. One per worker.
 class ShareIntegrator {
 public:
-  /// The ratio of two integrals over `from`: of the form factor of what is visible of `to`, and of
-  /// the whole of it. By tensor Gauss rules on cells that are cut in four where two rules in a row
+  /// @param face_count  of the scene
+  /// @param tolerance   points closer than this to a plane lie in it, metres
+  Status init(std::uint32_t face_count, double tolerance);
+
+  /// Sets the facet whose points see. @param receiver  outlives its use
+  void set_receiver(const Facet& receiver) noexcept;
+
+  /// The ratio of two integrals over the receiver: of the form factor of what is visible of `to`,
+  /// and of the whole of it. Four points a cell; cells are cut in four where two rules in a row
   /// disagree. Visible form factors are continuous with kinks, for which rules of low order on
   /// small cells are best; in the ratio the variation of the kernel itself all but cancels.
-  /// @param from, to    facets with at least three corners that see each other with their fronts
-  /// @param blockers    as for VisiblePart
-  /// @param tolerance   on the error, > 0
-  /// @param max_points  about as many points are spent at most
-  Status find(const Facet& from, const Facet& to, std::span<const Blocker> blockers,
-              double tolerance, std::uint32_t max_points, VisibleShare* share);
+  /// @param to  it and the receiver see each other with their fronts
+  Status find(const Facet& to, std::span<const Blocker> blockers, const Effort& effort,
+              VisibleShare* share);
 
-  /// Points spent since the integrator was made.
-  std::uint64_t point_count() const noexcept { return point_count_; }
+  /// The same for a receiver that is a single point.
+  Status find_at_point(const Facet& to, std::span<const Blocker> blockers, VisibleShare* share);
 
 private:
   /// A part of a quadrilateral, in its own coordinates 0..1 x 0..1.
@@ -38,16 +50,42 @@ private:
     double whole = 0, visible = 0;
     double least = 1, most = 0; ///< visible share of a point
   };
+  static constexpr int kCellPoints = 4;
+  static constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
 
-  Status sample(const Cell& cell, Sums* sums);
-  Status refine(const Cell& cell, const Sums& sums, double tolerance, Sums* refined,
-                double* error);
+  /// Shadows that were asked for at one of the receiver's own points.
+  struct KeptShadows {
+    Buffer<std::uint32_t> index_of_face; ///< into shadows, valid if it names the face
+    Buffer<Shadow> shadows;
+    Buffer<std::uint32_t> faces; ///< [shadow]
+  };
 
-  Vec3 normal_, to_normal_;
+  /// Which of blockers_ matter.
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  enum class Fate { kSeen, kHidden, kOpen };
+
+  static int split(const ConvexPolygon& polygon, Vec3 (*cells)[4]) noexcept;
+  Status sample(const Cell& cell, Range blockers, bool keeps, Sums* sums);
+  Status find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept);
+  Status narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate);
+  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
+                Sums* refined, double* error);
+  Status refine_open(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
+                     Sums* refined, double* error);
+
+  const Facet* receiver_ = nullptr;
   const Facet* to_ = nullptr;
-  std::span<const Blocker> blockers_;
+  KeptShadows kept_[kCellPoints]; ///< at the points of the receiver as a single cell
+
+  Buffer<Blocker> blockers_; ///< of the pair, then of the cells being cut, level after level
+  double plane_tolerance_ = 0;
+  double largest_part_ = 1;
   double all_ = 0; ///< the sum of `whole` over the first cells
   std::uint64_t point_count_ = 0, point_limit_ = 0;
+  Buffer<Shadow> shadows_;           ///< of a point that keeps none
+  Buffer<const Shadow*> in_the_way_; ///< of the point at hand
   VisiblePart visible_;
 };
 
