@@ -175,7 +175,8 @@ Status CoplanarMesh::find_chains(bool* any) {
   HC_TRY(chain_length_.resize(corners_.size()));
   chain_length_.fill(0);
   chains_.clear();
-  for (std::uint32_t h = 0; h < half_edge_count(); ++h) {
+  // Each half-edge is in one chain at most, unless cells coincide: those may go without.
+  for (std::uint32_t h = 0; h < half_edge_count() && chains_.size() <= corners_.size(); ++h) {
     if (twin_[h] != kNoHalfEdge || !cell(cell_of_[h]).can_join)
       continue;
     if (chains_.capacity() < chains_.size() + kMostInAChain)
