@@ -168,4 +168,16 @@ void expect_faces_cover(const PatchSet& patches, const OccluderFaces& faces, int
   }
 }
 
+std::uint32_t checked_count(const PatchSet& patches) {
+  const OccluderFaces faces = faces_of(patches);
+  expect_faces_cover(patches, faces);
+  return faces.face_count();
+}
+
+std::uint32_t checked_count(const PolygonList& polygons) {
+  const PatchSet patches = patches_of(polygons);
+  EXPECT_EQ(patches.patch_count(), polygons.size());
+  return checked_count(patches);
+}
+
 } // namespace hemicube::test

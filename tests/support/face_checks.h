@@ -15,4 +15,9 @@ radiosity::OccluderFaces faces_of(const PatchSet& patches);
 void expect_faces_cover(const PatchSet& patches, const radiosity::OccluderFaces& faces,
                         int points = 20);
 
+/// The number of faces, after those checks.
+std::uint32_t checked_count(const PatchSet& patches);
+/// The same; expects each polygon to be a patch.
+std::uint32_t checked_count(const PolygonList& polygons);
+
 } // namespace hemicube::test

@@ -1,6 +1,7 @@
 #include "tests/support/polygon_lists.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hemicube::test {
 
@@ -57,6 +58,14 @@ PolygonList reversed(PolygonList polygons) {
   return polygons;
 }
 
+PolygonList without(const PolygonList& polygons, std::initializer_list<int> removed) {
+  PolygonList left;
+  for (int k = 0; k < static_cast<int>(polygons.size()); ++k)
+    if (std::find(removed.begin(), removed.end(), k) == removed.end())
+      left.push_back(polygons[static_cast<std::size_t>(k)]);
+  return left;
+}
+
 void append(PolygonList* polygons, PolygonList more) {
   for (Polygon& polygon : more)
     polygons->push_back(std::move(polygon));
@@ -87,6 +96,13 @@ PolygonList in_triangles(const PolygonList& polygons, std::uint32_t seed) {
       triangles.push_back({quad[start], quad[(start + 1) % 4], quad[(start + 2) % 4]});
   }
   return triangles;
+}
+
+Polygon regular(int corners) {
+  Polygon polygon;
+  for (int k = 0; k < corners; ++k)
+    polygon.push_back({2 + std::cos(2 * M_PI * k / corners), std::sin(2 * M_PI * k / corners), 1});
+  return polygon;
 }
 
 } // namespace hemicube::test

@@ -18,6 +18,7 @@ PolygonList moved(PolygonList polygons, double scale, const Vec3& offset);
 PolygonList turned(PolygonList polygons, const std::array<Vec3, 3>& frame);
 PolygonList shuffled(PolygonList polygons, std::uint32_t seed);
 PolygonList reversed(PolygonList polygons);
+PolygonList without(const PolygonList& polygons, std::initializer_list<int> removed);
 void append(PolygonList* polygons, PolygonList more);
 
 /// nx x ny rectangles that tile [low, high] of the plane z = 0, front towards +z.
@@ -25,5 +26,8 @@ PolygonList rectangle_grid(double low_x, double low_y, double high_x, double hig
                            int ny);
 /// Every quad cut into two triangles along a diagonal of random choice.
 PolygonList in_triangles(const PolygonList& polygons, std::uint32_t seed);
+
+/// With corners on a circle of radius 1 around (2, 0, 1) in the plane z = 1.
+Polygon regular(int corners);
 
 } // namespace hemicube::test

@@ -1,33 +1,16 @@
 #include "radiosity/form_factor/occluder_faces.h"
 
 #include "tests/support/face_checks.h"
-#include "tests/support/office.h"
 #include "tests/support/reference.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace hemicube::test {
 namespace {
 
 using radiosity::OccluderFaces;
-
-/// The number of faces, after all other checks.
-std::uint32_t checked_count(const PatchSet& patches) {
-  const OccluderFaces faces = faces_of(patches);
-  expect_faces_cover(patches, faces);
-  return faces.face_count();
-}
-std::uint32_t checked_count(const PolygonList& polygons) {
-  const PatchSet patches = patches_of(polygons);
-  EXPECT_EQ(patches.patch_count(), polygons.size());
-  return checked_count(patches);
-}
 
 /// Expects one face with that many corners.
 void expect_one_face(const PolygonList& polygons, std::size_t corners) {
@@ -40,14 +23,6 @@ void expect_one_face(const PolygonList& polygons, std::size_t corners) {
 
 std::uint32_t reference_count(const std::string& name) {
   return checked_count(patches_of(reference_scene("scenes/" + name + ".coarse.obj")));
-}
-
-PolygonList without(PolygonList polygons, std::initializer_list<int> removed) {
-  PolygonList left;
-  for (int k = 0; k < static_cast<int>(polygons.size()); ++k)
-    if (std::find(removed.begin(), removed.end(), k) == removed.end())
-      left.push_back(polygons[static_cast<std::size_t>(k)]);
-  return left;
 }
 
 // Rows that do not join to walls, corners that stay in the middle of edges.
@@ -260,13 +235,6 @@ TEST(OccluderFaces, Slivers) {
   }
 }
 
-Polygon regular(int corners) {
-  Polygon polygon;
-  for (int k = 0; k < corners; ++k)
-    polygon.push_back({2 + std::cos(2 * M_PI * k / corners), std::sin(2 * M_PI * k / corners), 1});
-  return polygon;
-}
-
 // More corners than a face can have, of one patch and of joined ones.
 TEST(OccluderFaces, ManyCorners) {
   EXPECT_EQ(checked_count(PolygonList{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), 1u);
@@ -314,97 +282,6 @@ TEST(OccluderFaces, SoupsStayAsTheyAre) {
     }
   }
   EXPECT_EQ(faces_of(PatchSet()).face_count(), 0u);
-}
-
-/// A rectangle cut in two at a random multiple of 1/64, and the parts again, some as grids.
-void cut_at_random(double low_x, double low_y, double high_x, double high_y, int depth,
-                   Random& random, PolygonList* list) {
-  if (depth == 0) {
-    append(list, rectangle_grid(low_x, low_y, high_x, high_y, 1 + static_cast<int>(random.index(3)),
-                                1 + static_cast<int>(random.index(3))));
-    return;
-  }
-  const double part = (16 + random.index(33)) / 64.0;
-  if (high_x - low_x > high_y - low_y) {
-    const double x = low_x + (high_x - low_x) * part;
-    cut_at_random(low_x, low_y, x, high_y, depth - 1, random, list);
-    cut_at_random(x, low_y, high_x, high_y, depth - 1, random, list);
-  } else {
-    const double y = low_y + (high_y - low_y) * part;
-    cut_at_random(low_x, low_y, high_x, y, depth - 1, random, list);
-    cut_at_random(low_x, y, high_x, high_y, depth - 1, random, list);
-  }
-}
-
-// All at once, in mixes no one thought of: T-vertices on both sides of a line, holes, patches
-// twice, patches turned over, triangles, slanted planes, offsets.
-TEST(OccluderFaces, RandomTilings) {
-  std::size_t patch_count = 0, face_count = 0;
-  for (std::uint32_t seed = 0; seed < 150; ++seed) {
-    Random random(seed);
-    PolygonList list;
-    cut_at_random(0, 0, 1.3, 1, static_cast<int>(random.index(7)), random, &list);
-    list = shuffled(list, seed);
-    if (random.index(2) == 0)
-      list.resize(list.size() - list.size() / 8);
-    if (random.index(3) == 0)
-      list = in_triangles(list, seed);
-    if (random.index(3) == 0)
-      list.push_back(list[0]);
-    if (random.index(3) == 0)
-      std::reverse(list[1 % list.size()].begin(), list[1 % list.size()].end());
-    if (random.index(2) == 0)
-      list = turned(list, random_frame(random));
-    if (random.index(3) == 0)
-      list = moved(list, random.between(1e-3, 1e3), random.point(-100, 100));
-    patch_count += list.size();
-    face_count += checked_count(list);
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
-  }
-  std::printf("%zu patches, %zu faces\n", patch_count, face_count);
-}
-
-int allocations_left = -1; ///< until one fails; < 0: none does
-
-// An error that is lost on the way up, or leaves a buffer half filled.
-TEST(OccluderFaces, EveryAllocationMayFail) {
-  set_allocator({[](std::size_t bytes) -> void* {
-                   if (allocations_left == 0)
-                     return nullptr;
-                   allocations_left -= allocations_left > 0;
-                   return std::aligned_alloc(64, (bytes + 63) / 64 * 64);
-                 },
-                 [](void* memory, std::size_t) { std::free(memory); }});
-  PolygonList list = rectangle_grid(0, 0, 1, 1, 5, 5);
-  append(&list, rectangle_grid(1, 0, 2, 1, 1, 3));
-  list.push_back(regular(48));
-  const PatchSet patches = patches_of(without(list, {7}));
-  for (int fail_at = 0;; ++fail_at) {
-    OccluderFaces fresh;
-    allocations_left = fail_at;
-    const Status status = fresh.build(patches);
-    allocations_left = -1;
-    if (status.ok()) {
-      EXPECT_GT(fail_at, 20);
-      expect_faces_cover(patches, fresh);
-      break;
-    }
-    ASSERT_EQ(status.code(), StatusCode::kOutOfMemory);
-  }
-}
-
-// Costs that grow faster than the mesh: not asserted, but it would not end.
-TEST(OccluderFaces, Office) {
-  for (const double cell : {0.5, 0.255}) {
-    const PatchSet patches = patches_of(office({4, 4, 2, cell}));
-    const auto start = std::chrono::steady_clock::now();
-    const OccluderFaces faces = faces_of(patches);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("%u patches, %u faces, %.3f s\n", patches.patch_count(), faces.face_count(),
-                seconds.count());
-    EXPECT_LT(faces.face_count(), 12000u);
-    expect_faces_cover(patches, faces, 3);
-  }
 }
 
 } // namespace
