@@ -10,10 +10,9 @@ namespace hemicube::radiosity {
 Status ConvexUnion::init(const CoplanarMesh& mesh) {
   mesh_ = &mesh;
   stamp_ = 0;
-  for (Buffer<std::uint32_t>* stamps : {&member_, &passed_, &leaving_}) {
-    stamps->clear();
-    HC_TRY(stamps->resize(stamps == &member_ ? mesh.cell_count() : mesh.vertex_count()));
-  }
+  member_.clear();
+  HC_TRY(member_.resize(mesh.cell_count()));
+  HC_TRY(leaving_.resize(mesh.vertex_count()));
   HC_TRY(outline_.resize(mesh.half_edge_count()));
   return stack_.resize(std::size_t{mesh.half_edge_count()} + 1);
 }
@@ -23,15 +22,15 @@ bool ConvexUnion::join(std::span<const std::uint32_t> cells) {
   for (const std::uint32_t c : cells)
     member_[c] = stamp_;
   off_ = 0;
-  if (!find_outline(cells) || !find_plane(cells) || !find_corners() || !outline_follows_corners() ||
-      !corners_are_convex())
+  if (!find_outline(cells) || !find_plane(cells) || !find_corners() || !corners_are_convex())
     return false;
+  measure_edges();
   cell_.slack += off_;
   return cell_.slack <= cell_.resolution;
 }
 
-/// Walks the half-edges that have no twin in the union. False if they are not a single loop that
-/// passes every vertex once.
+/// Walks the half-edges that have no twin in the union: as many arrive at a vertex as leave it.
+/// False if they are not a single loop that passes every vertex once.
 bool ConvexUnion::find_outline(std::span<const std::uint32_t> cells) {
   std::size_t count = 0;
   std::uint32_t start = 0;
@@ -41,16 +40,13 @@ bool ConvexUnion::find_outline(std::span<const std::uint32_t> cells) {
       if (twin != kNoHalfEdge && member_[mesh_->cell_of(twin)] == stamp_)
         continue;
       start = mesh_->from(h);
-      if (passed_[start] == stamp_)
-        return false;
-      passed_[start] = stamp_;
       leaving_[start] = h;
       ++count;
     }
   outline_count_ = 0;
   std::uint32_t vertex = start;
   do {
-    if (outline_count_ == count || passed_[vertex] != stamp_)
+    if (outline_count_ == count)
       return false;
     outline_[outline_count_++] = vertex;
     vertex = mesh_->to(leaving_[vertex]);
@@ -80,7 +76,7 @@ bool ConvexUnion::find_plane(std::span<const std::uint32_t> cells) {
     for (std::uint32_t h = mesh_->begin(c); h < mesh_->end(c); ++h)
       off_ = std::max(off_, std::fabs(cell_.plane.side(mesh_->position(mesh_->from(h)))));
   }
-  return off_ <= cell_.resolution;
+  return true;
 }
 
 /// Keeps the corners of the outline where it turns left, going around once from a vertex that is
@@ -113,8 +109,8 @@ bool ConvexUnion::find_corners() {
   return true;
 }
 
-/// False if a vertex between two corners lies off the edge between them.
-bool ConvexUnion::outline_follows_corners() {
+/// How far vertices between two corners lie off the edge between them.
+void ConvexUnion::measure_edges() {
   for (std::size_t k = 0; k < kept_count_; ++k) {
     const Vec3 start = corner(k);
     const Vec3 edge = corner(k + 1) - start;
@@ -127,7 +123,6 @@ bool ConvexUnion::outline_follows_corners() {
       off_ = std::max(off_, std::max(-along, along - length));
     }
   }
-  return off_ <= cell_.resolution;
 }
 
 /// Every corner lies to the left of every edge: so they turn left, and around once.

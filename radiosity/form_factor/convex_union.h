@@ -28,7 +28,7 @@ private:
   bool find_outline(std::span<const std::uint32_t> cells);
   bool find_plane(std::span<const std::uint32_t> cells);
   bool find_corners();
-  bool outline_follows_corners();
+  void measure_edges();
   bool corners_are_convex() const;
 
   const Vec3& outline(std::size_t place) const { return mesh_->position(outline_[place]); }
@@ -36,9 +36,9 @@ private:
 
   const CoplanarMesh* mesh_ = nullptr;
   std::uint32_t stamp_ = 0;
-  Buffer<std::uint32_t> member_;           ///< [cell] stamp of the last union with it
-  Buffer<std::uint32_t> passed_, leaving_; ///< [vertex] stamp, and half-edge of the outline from it
-  Buffer<std::uint32_t> outline_;          ///< vertices
+  Buffer<std::uint32_t> member_;  ///< [cell] stamp of the last union with it
+  Buffer<std::uint32_t> leaving_; ///< [vertex] half-edge of the outline from it
+  Buffer<std::uint32_t> outline_; ///< vertices
   std::size_t outline_count_ = 0;
   Buffer<std::uint32_t> stack_; ///< places in the outline
   std::size_t stack_count_ = 0;
