@@ -45,53 +45,19 @@ constexpr Order kOrders[] = {
     {7, 0x1.84f341e9a2ce8p-14},  {8, 0x1.8679bba548169p-16}, {10, 0x1.88aa84b1ac9cdp-20},
     {12, 0x1.8a29d2be150fdp-24}, {16, 0x1.8c13f2574e09fp-32}};
 
-/// Bounds the coefficient of t^k in 1 / (1 - 2 t cos + t^2)^2. @param steepness  1 / sin^2 or more
-double coefficient(int k, double steepness) {
-  const double n = k;
-  const double along = (n + 1) * (n + 2) * (n + 3) / 6, across = (n + 1) * steepness;
-  return along < across ? along : across;
-}
-
-/// Bounds the relative error of the Gauss rule for (1 + alpha x) (1 + beta x) / r^4 on a line whose
-/// half length is `ratio` of the distance from its middle.
-double gauss_bound(const Order& rule, double ratio, double steepness, double alpha, double beta) {
-  // 2 / ratio as seen from the ellipse of convergence.
-  const double t = 2 * ratio / (1 + std::sqrt(1 - ratio * ratio));
-  const int n = 2 * rule.order;
-  double power = rule.constant;
-  for (int k = 2; k < n; ++k)
-    power *= t;
-  return power *
-         (coefficient(n, steepness) * t * t + (alpha + beta) * coefficient(n - 1, steepness) * t +
-          alpha * beta * coefficient(n - 2, steepness)) /
-         (1 - 0.25 * t * t);
-}
-
-/// The smallest order whose bound is below the limit; 0 if there is none. Adds its bound.
-int order_for(double half, double distance, double steepness, const AreaShape& shape, double limit,
-              double* bound) {
-  if (!(distance > half * 1.25))
-    return 0;
-  const double ratio = half / distance;
-  for (const Order& rule : kOrders) {
-    const double here = gauss_bound(rule, ratio, steepness, shape.tilt, shape.bend);
-    if (here <= limit) {
-      *bound += here;
-      return rule.order;
-    }
-  }
-  return 0;
+double smaller(double a, double b) {
+  return a < b ? a : b;
 }
 
 /// 1 / sin^2 of the smallest angle between an axis and any line between the two polygons.
 double steepness_of(const AreaShape& shape, const Vec3& axis, const Vec3& between, double distance,
                     double spread) {
   if (shape.bend > 0)
-    return kNone;
+    return kAnySteepness;
   const Vec3 across = glm::cross(between, axis);
   const double offset = std::sqrt(glm::dot(across, across) / glm::dot(axis, axis)) - spread;
   if (!(offset > 0))
-    return kNone;
+    return kAnySteepness;
   const double sine = offset / (distance + spread);
   return 1 / (sine * sine);
 }
@@ -103,12 +69,12 @@ int piece_count(const AreaShape& shape) {
 bool choose_for(const AreaShape& shape, const AreaShape& other, const Vec3& between,
                 double distance, double limit, int* order_u, int* order_v, double* bound) {
   const double spread = shape.radius + other.radius;
-  *order_u =
-      order_for(shape.half_u, distance - shape.half_v - other.radius,
-                steepness_of(shape, shape.axis_u, between, distance, spread), shape, limit, bound);
-  *order_v =
-      order_for(shape.half_v, distance - shape.half_u - other.radius,
-                steepness_of(shape, shape.axis_v, between, distance, spread), shape, limit, bound);
+  *order_u = smallest_order(shape.half_u, distance - shape.half_v - other.radius,
+                            steepness_of(shape, shape.axis_u, between, distance, spread),
+                            shape.tilt, shape.bend, limit, bound);
+  *order_v = smallest_order(shape.half_v, distance - shape.half_u - other.radius,
+                            steepness_of(shape, shape.axis_v, between, distance, spread),
+                            shape.tilt, shape.bend, limit, bound);
   return *order_u != 0 && *order_v != 0 && piece_count(shape) * *order_u * *order_v <= kMaxPoints;
 }
 
@@ -158,6 +124,40 @@ struct Rule {
 };
 
 } // namespace
+
+int smallest_order(double half, double distance, double steepness, double tilt, double bend,
+                   double limit, double* bound) noexcept {
+  if (!(distance > half * 1.25))
+    return 0;
+  // 1 / r^4 is the sum of C_k(cos) t^k, C_k the Gegenbauer polynomials of index 2. With
+  // t = 2 / (ratio's ellipse of convergence), or a little more, the rule's constant holds for all
+  // of the tail.
+  const double t = half * distance / (distance * distance - 0.31 * half * half), square = t * t;
+  const double room = 1 - 0.25 * square, enough = limit * room;
+  const double either = (tilt + bend) * t, product = tilt * bend;
+  double power = 1;
+  for (const Order& rule : kOrders) {
+    if (rule.order <= 8) {
+      if (rule.order > 1)
+        power *= square;
+    } else {
+      power *= square * square;
+      if (rule.order == 16)
+        power *= square * square;
+    }
+    const double n = 2 * rule.order;
+    // |C_k| is at most (k+1)(k+2)(k+3)/6 along the line and (k+1) / sin^2 across it.
+    const double at_n = (n + 1) * smaller((n + 2) * (n + 3) * (1.0 / 6), steepness);
+    const double at_n1 = n * smaller((n + 1) * (n + 2) * (1.0 / 6), steepness);
+    const double at_n2 = (n - 1) * smaller(n * (n + 1) * (1.0 / 6), steepness);
+    const double here = rule.constant * power * (at_n * square + either * at_n1 + product * at_n2);
+    if (here <= enough) {
+      *bound += here / room;
+      return rule.order;
+    }
+  }
+  return 0;
+}
 
 void measure(AreaShape* shape) noexcept {
   const ConvexPolygon& polygon = shape->polygon;
@@ -220,8 +220,10 @@ TensorOrders choose_outer_orders(const AreaShape& p, double distance,
                                  double relative_error) noexcept {
   TensorOrders orders;
   const double limit = 0.5 * relative_error;
-  orders.p_u = order_for(p.half_u, distance - p.half_v, kNone, p, limit, &orders.bound);
-  orders.p_v = order_for(p.half_v, distance - p.half_u, kNone, p, limit, &orders.bound);
+  orders.p_u = smallest_order(p.half_u, distance - p.half_v, kAnySteepness, p.tilt, p.bend, limit,
+                              &orders.bound);
+  orders.p_v = smallest_order(p.half_v, distance - p.half_u, kAnySteepness, p.tilt, p.bend, limit,
+                              &orders.bound);
   orders.evaluations = orders.p_u == 0 || orders.p_v == 0
                            ? kNone
                            : static_cast<double>(piece_count(p) * orders.p_u * orders.p_v);

@@ -19,6 +19,26 @@ struct AreaShape {
   double height = 0;             ///< mean height of the corners over the other's plane
 };
 
+/// No lower bound for an angle.
+inline constexpr double kAnySteepness = 1e300;
+
+/// Heights over a plane below this are rounding of the coordinates.
+/// @param coordinate  largest magnitude of a coordinate
+/// @param reach       distance of the point from a corner of the polygon that spans the plane
+/// @param width       of that polygon: its normal is no better than the coordinates over it
+inline double height_tolerance(double coordinate, double reach, double width) noexcept {
+  return 0x1p-49 * coordinate * (1 + reach / width);
+}
+
+/// The smallest Gauss-Legendre order whose error on a line is below `limit` of the value, for the
+/// kernel (1 + tilt x) (1 + bend x) / r^4; 0 if there is none up to 16.
+/// @param half       half the line's length
+/// @param distance   from its middle to the nearest point of the other polygon, or less
+/// @param steepness  1 / sin^2 of the smallest angle to a line to the other polygon, or more
+/// @param bound      the rule's bound is added to it
+int smallest_order(double half, double distance, double steepness, double tilt, double bend,
+                   double limit, double* bound) noexcept;
+
 /// Fills everything but tilt and height from polygon and normal.
 void measure(AreaShape* shape) noexcept;
 

@@ -3,6 +3,7 @@
 #include "radiosity/elementary.h"
 #include "radiosity/form_factor/area_quadrature.h"
 #include "radiosity/form_factor/edge_integrals.h"
+#include "radiosity/form_factor/far_exchange.h"
 
 #include <array>
 #include <bit>
@@ -14,8 +15,6 @@ namespace {
 
 /// One unit in the last place of 1, halved.
 constexpr double kRounding = 0x1p-53;
-/// Heights over a plane below so many roundings of the coordinates are 0.
-constexpr double kHeightRoundings = 16;
 
 // Nanoseconds, roughly: what the methods' parts take.
 constexpr double kKernelCost = 1.1, kLambertEdgeCost = 20, kClosedFormCost = 150, kGradedCost = 600;
@@ -26,14 +25,6 @@ constexpr double kFinest = 1e-11;
 
 double larger(double a, double b) {
   return a > b ? a : b;
-}
-
-double largest_coordinate(const ConvexPolygon& polygon, double largest) {
-  for (int k = 0; k < polygon.count; ++k) {
-    const Vec3& c = polygon.corners[k];
-    largest = larger(largest, larger(std::fabs(c.x), larger(std::fabs(c.y), std::fabs(c.z))));
-  }
-  return largest;
 }
 
 /// Whether p comes first in an order that does not depend on which argument it was.
@@ -47,29 +38,21 @@ bool comes_first(const ConvexPolygon& p, const ConvexPolygon& q) {
   return true;
 }
 
-/// How a polygon lies to a plane.
+/// How a polygon lies to another's plane.
 struct Sides {
   double side[ConvexPolygon::kMaxCorners];
   double tolerance = 0;
   bool any_front = false, any_back = false;
 
-  /// The plane is that of `base`, whose normal is only as good as its width allows.
-  Sides(const ConvexPolygon& polygon, const ConvexPolygon& base, const Vec3& normal,
-        double coordinate) {
-    double reach = 0, longest = 0;
-    const Vec3 origin = base.corners[0];
+  Sides(const ConvexPolygon& polygon, const PreparedArea& base, double coordinate) {
+    double reach = 0;
+    const Vec3 origin = base.polygon->corners[0];
     for (int k = 0; k < polygon.count; ++k) {
       const Vec3 arm = polygon.corners[k] - origin;
-      side[k] = glm::dot(normal, arm);
+      side[k] = glm::dot(base.normal, arm);
       reach = larger(reach, glm::dot(arm, arm));
     }
-    for (int k = 0; k < base.count; ++k) {
-      const Vec3 edge = base.corners[k + 1 == base.count ? 0 : k + 1] - base.corners[k];
-      longest = larger(longest, glm::dot(edge, edge));
-    }
-    const Vec3 area = area_vector(base.span());
-    const double width = std::sqrt(glm::dot(area, area) / longest);
-    tolerance = kHeightRoundings * kRounding * coordinate * (1 + std::sqrt(reach) / width);
+    tolerance = height_tolerance(coordinate, std::sqrt(reach), base.width);
     for (int k = 0; k < polygon.count; ++k) {
       any_front |= side[k] > tolerance;
       any_back |= side[k] < -tolerance;
@@ -212,35 +195,36 @@ AreaIntegral integrate(const AreaShape& p, const AreaShape& q, double relative_e
   return {value, value * (both.bound + 16 * kRounding)};
 }
 
-AreaIntegral exchange_ordered(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
-                              const Vec3& normal_q, double relative_error);
+AreaIntegral exchange_ordered(const PreparedArea& p, const PreparedArea& q, double relative_error);
 
 /// A polygon without room for the corner that a cut adds, in two parts.
-AreaIntegral exchange_halves(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
-                             const Vec3& normal_q, double relative_error) {
+AreaIntegral exchange_halves(const PreparedArea& whole, const PreparedArea& q,
+                             double relative_error) {
+  const ConvexPolygon& p = *whole.polygon;
   AreaIntegral sum;
   for (int half = 0; half < 2; ++half) {
     ConvexPolygon part;
     const int first = half == 0 ? 0 : p.count / 2, last = half == 0 ? p.count / 2 : p.count;
     for (int k = first; k <= last; ++k)
       part.append(p.corners[k == p.count ? 0 : k]);
-    const AreaIntegral one = exchange_ordered(part, normal_p, q, normal_q, relative_error);
+    const AreaIntegral one = exchange_ordered(prepare_area(part, whole.normal), q, relative_error);
     sum.value += one.value;
     sum.error += one.error;
   }
   return sum;
 }
 
-AreaIntegral exchange_ordered(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
-                              const Vec3& normal_q, double relative_error) {
-  const double coordinate = largest_coordinate(q, largest_coordinate(p, 0));
-  const Sides p_sides(p, q, normal_q, coordinate), q_sides(q, p, normal_p, coordinate);
+AreaIntegral exchange_ordered(const PreparedArea& of_p, const PreparedArea& of_q,
+                              double relative_error) {
+  const double coordinate = larger(of_p.coordinate, of_q.coordinate);
+  const ConvexPolygon &p = *of_p.polygon, &q = *of_q.polygon;
+  const Sides p_sides(p, of_q, coordinate), q_sides(q, of_p, coordinate);
   if (!p_sides.any_front || !q_sides.any_front)
     return {};
   if (p_sides.any_back && p.is_full())
-    return exchange_halves(p, normal_p, q, normal_q, relative_error);
+    return exchange_halves(of_p, of_q, relative_error);
   if (q_sides.any_back && q.is_full())
-    return exchange_halves(q, normal_q, p, normal_p, relative_error);
+    return exchange_halves(of_q, of_p, relative_error);
   ConvexPolygon cut_p, cut_q;
   const ConvexPolygon *front_p = &p, *front_q = &q;
   if (p_sides.any_back) {
@@ -262,14 +246,14 @@ AreaIntegral exchange_ordered(const ConvexPolygon& p, const Vec3& normal_p, cons
   AreaShape shape_p, shape_q;
   localise(*front_p, origin, 1 / unit_length, &shape_p);
   localise(*front_q, origin, 1 / unit_length, &shape_q);
-  shape_p.normal = normal_p;
-  shape_q.normal = normal_q;
+  shape_p.normal = of_p.normal;
+  shape_q.normal = of_q.normal;
   measure(&shape_p);
   measure(&shape_q);
   if (!(shape_p.area > 0 && shape_q.area > 0))
     return {};
-  measure_height(&shape_p, {shape_q.polygon.corners[0], normal_q});
-  measure_height(&shape_q, {shape_p.polygon.corners[0], normal_p});
+  measure_height(&shape_p, {shape_q.polygon.corners[0], of_q.normal});
+  measure_height(&shape_q, {shape_p.polygon.corners[0], of_p.normal});
   const AreaIntegral local = integrate(shape_p, shape_q, relative_error, 0);
   const double square = unit_length * unit_length;
   return {local.value * square, local.error * square};
@@ -277,10 +261,21 @@ AreaIntegral exchange_ordered(const ConvexPolygon& p, const Vec3& normal_p, cons
 
 } // namespace
 
+AreaIntegral exchange_area(const PreparedArea& p, const PreparedArea& q,
+                           double relative_error) noexcept {
+  if (!(p.area > 0 && q.area > 0))
+    return {};
+  const bool in_order = comes_first(*p.polygon, *q.polygon);
+  const PreparedArea &first = in_order ? p : q, &second = in_order ? q : p;
+  AreaIntegral result;
+  if (!far_exchange(first, second, relative_error, &result))
+    result = exchange_ordered(first, second, relative_error);
+  return result;
+}
+
 AreaIntegral exchange_area(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
                            const Vec3& normal_q, double relative_error) noexcept {
-  return comes_first(p, q) ? exchange_ordered(p, normal_p, q, normal_q, relative_error)
-                           : exchange_ordered(q, normal_q, p, normal_p, relative_error);
+  return exchange_area(prepare_area(p, normal_p), prepare_area(q, normal_q), relative_error);
 }
 
 } // namespace hemicube::radiosity

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiosity/form_factor/convex_polygon.h"
+#include "radiosity/form_factor/prepared_area.h"
 
 namespace hemicube::radiosity {
 
@@ -23,5 +23,9 @@ struct AreaIntegral {
 /// no bit. Nothing is allocated.
 AreaIntegral exchange_area(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
                            const Vec3& normal_q, double relative_error) noexcept;
+
+/// The same, bit for bit, of polygons prepared once for many pairs.
+AreaIntegral exchange_area(const PreparedArea& p, const PreparedArea& q,
+                           double relative_error) noexcept;
 
 } // namespace hemicube::radiosity
