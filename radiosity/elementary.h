@@ -48,8 +48,8 @@ inline double arctangent2(double y, double x) noexcept {
   const double ay = y < 0 ? -y : y, ax = x < 0 ? -x : x;
   const bool steep = ay > ax;
   const double large = steep ? ay : ax, small = steep ? ax : ay;
-  if (large == 0)
-    return 0;
+  if (large < 0x1p-960) // products below must not be denormal
+    return large == 0 ? 0 : arctangent2(y * 0x1p+512, x * 0x1p+512);
   // arctan(small / large) = arctan(c) + arctan(t) with c the nearest quarter.
   const int quarter = (small > large * 0.125) + (small > large * 0.375) + (small > large * 0.625) +
                       (small > large * 0.875);
