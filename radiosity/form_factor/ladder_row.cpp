@@ -20,15 +20,16 @@ constexpr std::uint32_t kManyFaces = 2048;
 /// areas may be off by, relative.
 constexpr double kExactShare = 1e-6;
 constexpr double kExactIntegral = 1e-10;
-constexpr double kFineIntegral = 1e-6;
+constexpr double kFineIntegral = 1e-5;
+constexpr double kIntegralPerTarget = 1e-2;
 
 /// The errors of the shares of pairs are estimated from above and add up as squares.
-constexpr double kSharePerTarget = 0.25;
+constexpr double kSharePerTarget = 1;
 
 /// Cells that carry more than this of a form factor, or of the integral on rung exact, are always
 /// cut: what their points do not show must not matter.
-constexpr double kUnseenPerTarget = 0.4;
-constexpr double kExactPart = 1.0 / 256;
+constexpr double kUnseenPerTarget = 0.1;
+constexpr double kExactPart = 1.0 / 4096;
 
 constexpr std::uint32_t kManyPoints = 4096, kMostPoints = 1u << 20;
 
@@ -63,6 +64,13 @@ Status LadderSetup::init(const PatchSet& patches_in, Rung rung_in, double target
   patches = &patches_in;
   HC_TRY(hemicube.init(polygons_of(patches_in), resolution, kernels, hash_items));
   return rung == Rung::kHemicube ? Status() : facets.build(patches_in);
+}
+
+double LadderSetup::integral_error() const noexcept {
+  if (rung == Rung::kExact)
+    return kExactIntegral;
+  return rung == Rung::kAdaptive ? std::min(kIntegralPerTarget * target, kFineIntegral * 10)
+                                 : kFineIntegral;
 }
 
 Status LadderRow::init(const LadderSetup& setup) {
@@ -178,8 +186,8 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
       exchange_.back_side += value;
       exchange_.back_side_error += error;
     } else if (value > 0 || error > 0) {
-      HC_TRY(pairs_.push_back({target.piece->patch, target.blocker_count != 0,
-                               static_cast<float>(error), value}));
+      HC_TRY(pairs_.push_back(
+          {target.piece->patch, target.blocker_count != 0, static_cast<float>(error), value}));
     }
   }
   return {};
@@ -189,7 +197,7 @@ AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const Facet& targ
   const Facet& facet = receiver.facet;
   if (is_point(facet))
     return {point_to_polygon(facet.corners[0], facet.plane.normal, target.corners), 0};
-  const double accuracy = setup_->rung == Rung::kExact ? kExactIntegral : kFineIntegral;
+  const double accuracy = setup_->integral_error();
   return exchange_area(polygon_of(facet), facet.plane.normal, polygon_of(target),
                        target.plane.normal, accuracy);
 }
@@ -221,8 +229,7 @@ Effort LadderRow::effort_for(double area, const SeenTarget& target, double whole
   if (setup_->rung == Rung::kExact)
     return {kExactShare, kExactPart, kMostPoints};
   // The larger of the two form factors of the pair.
-  const double smaller =
-      !target.is_back() && target.piece->area < area ? target.piece->area : area;
+  const double smaller = !target.is_back() && target.piece->area < area ? target.piece->area : area;
   const double largest = whole / smaller;
   return {kSharePerTarget * setup_->target, kUnseenPerTarget * setup_->target / largest,
           kManyPoints};
@@ -282,7 +289,8 @@ void LadderRow::scale(double proven, double estimated) {
 }
 
 /// Makes row + space + back side 1. What is proven stands; what is estimated shares one factor,
-/// unless there is none or the factor would say that the estimates are worthless: then all share it.
+/// unless there is none or the factor would say that the estimates are worthless: then all share
+/// it.
 void LadderRow::close(RowFacts* facts) {
   std::sort(touched_.begin(), touched_.end());
   double proven = 0, estimated = 0;

@@ -18,11 +18,14 @@ struct LadderSetup {
   SceneFacets facets; ///< not built on rung hemicube
 
   /// @param patches_in  outlive this
-  Status init(const PatchSet& patches_in, Rung rung_in, double target_in,
-              std::uint32_t resolution, const raster::Kernels& kernels, bool hash_items);
+  Status init(const PatchSet& patches_in, Rung rung_in, double target_in, std::uint32_t resolution,
+              const raster::Kernels& kernels, bool hash_items);
 
   /// True if both rows of a pair of patches say the same of it, so that it need be found only once.
   bool shares_pairs() const noexcept { return rung >= Rung::kAdaptive; }
+
+  /// Relative, of integrals over pairs with nothing in between.
+  double integral_error() const noexcept;
 };
 
 /// Where a row is computed: on a patch, or at a point.
@@ -70,8 +73,8 @@ private:
 
   Status find_exchange(const RowPlace& place, bool own_only, RowFacts* facts);
   Status mark_seen_faces(const raster::View& view, RowFacts* facts);
-  Status add_receiver(const raster::View& view, const PatchPiece& receiver,
-                      std::uint32_t own_face, const PatchPiece* owner, RowFacts* facts);
+  Status add_receiver(const raster::View& view, const PatchPiece& receiver, std::uint32_t own_face,
+                      const PatchPiece* owner, RowFacts* facts);
   AreaIntegral find_whole(const PatchPiece& receiver, const Facet& target) const;
   Status find_share(const raster::View& view, const PatchPiece& receiver, const SeenTarget& target,
                     const Facet& facet, double whole, VisibleShare* share, RowFacts* facts);

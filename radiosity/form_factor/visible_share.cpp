@@ -5,18 +5,14 @@
 namespace hemicube::radiosity {
 namespace {
 
-/// The four points of a cell, from 0 to 1: exact for cubics, as the tensor Gauss rule, which this is
-/// turned by 18 degrees. Shadows mostly run along edges: here no two points share a coordinate, and
-/// coordinates are equally far apart.
+/// The four points of a cell, from 0 to 1: exact for cubics, as the tensor Gauss rule, which this
+/// is turned by 18 degrees. Shadows mostly run along edges: here no two points share a coordinate,
+/// and coordinates are equally far apart.
 constexpr double kFar = 0.38729833462074168852, kNear = 0.12909944487358056284;
 constexpr double kPoints[4][2] = {{0.5 + kFar, 0.5 + kNear},
                                   {0.5 - kNear, 0.5 + kFar},
                                   {0.5 - kFar, 0.5 - kNear},
                                   {0.5 + kNear, 0.5 - kFar}};
-
-/// A kink between the points of a cell moves their mean by at most about this part of the
-/// difference between them.
-constexpr double kKinkShare = 0.125;
 
 /// Two rules that differ by d leave about a quarter of it in the finer one, where the integrand has
 /// kinks; half of it is said.
@@ -94,8 +90,8 @@ Status ShareIntegrator::find_shadows(const Vec3& eye, Range blockers, KeptShadow
 Status ShareIntegrator::sample(const Cell& cell, Range blockers, bool keeps, Sums* sums) {
   const Vec3& normal = receiver_->plane.normal;
   for (int k = 0; k < kCellPoints; ++k) {
-    const Spot spot =
-        spot_of(cell.corners, cell.u + kPoints[k][0] * cell.size, cell.v + kPoints[k][1] * cell.size);
+    const Spot spot = spot_of(cell.corners, cell.u + kPoints[k][0] * cell.size,
+                              cell.v + kPoints[k][1] * cell.size);
     const double weight = glm::dot(spot.area, normal) * cell.size * cell.size;
     HC_TRY(find_shadows(spot.point, blockers, keeps ? &kept_[k] : nullptr));
     PointFormFactors seen;
@@ -115,10 +111,9 @@ Status ShareIntegrator::sample(const Cell& cell, Range blockers, bool keeps, Sum
 /// Asks of a part of the receiver what was asked of all of it.
 Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate) {
   const double u = cell.u, v = cell.v, size = cell.size;
-  const Vec3 corners[4] = {spot_of(cell.corners, u, v).point,
-                           spot_of(cell.corners, u + size, v).point,
-                           spot_of(cell.corners, u + size, v + size).point,
-                           spot_of(cell.corners, u, v + size).point};
+  const Vec3 corners[4] = {
+      spot_of(cell.corners, u, v).point, spot_of(cell.corners, u + size, v).point,
+      spot_of(cell.corners, u + size, v + size).point, spot_of(cell.corners, u, v + size).point};
   const Facet facet = Facet::of(corners, receiver_->plane.normal);
   Shaft shaft(facet, *to_, plane_tolerance_);
   narrowed->begin = blockers_.size();
@@ -141,59 +136,51 @@ Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed
 }
 
 /// Adds the integral over a cell, whose points are `sums`, to `refined`.
-Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums,
-                               double tolerance, Sums* refined, double* error) {
+Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
+                               Sums* refined, double* error) {
   const double part = sums.whole / all_;
-  const double kink = sums.most > sums.least ? kKinkShare * (sums.most - sums.least) * part : 0;
+  const double kink = sums.kink() / all_;
   if ((kink <= tolerance && part <= largest_part_) || point_count_ >= point_limit_) {
     refined->whole += sums.whole;
     refined->visible += sums.visible;
     *error += kink;
     return {};
   }
-  Range narrowed;
-  Fate fate = Fate::kOpen;
-  HC_TRY(narrow(cell, blockers, &narrowed, &fate));
-  if (fate == Fate::kOpen)
-    HC_TRY(refine_open(cell, narrowed, sums, tolerance, refined, error));
-  refined->whole += fate == Fate::kOpen ? 0 : sums.whole;
-  refined->visible += fate == Fate::kSeen ? sums.whole : 0;
-  while (blockers_.size() > narrowed.begin)
-    blockers_.pop_back();
-  return {};
-}
-
-Status ShareIntegrator::refine_open(const Cell& cell, Range blockers, const Sums& sums,
-                                    double tolerance, Sums* refined, double* error) {
-  const double part = sums.whole / all_;
   Cell quarters[4];
   Sums parts[4], all;
+  Range narrowed[4];
+  Fate fates[4];
+  const std::size_t blockers_before = blockers_.size();
+  double rest = 0;
   for (int k = 0; k < 4; ++k) {
     const double half = cell.size / 2;
     quarters[k] = {cell.corners, cell.u + (k % 2) * half, cell.v + (k / 2) * half, half};
-    HC_TRY(sample(quarters[k], blockers, false, &parts[k]));
+    HC_TRY(narrow(quarters[k], blockers, &narrowed[k], &fates[k]));
+    const bool is_open = fates[k] == Fate::kOpen;
+    HC_TRY(sample(quarters[k], is_open ? narrowed[k] : Range(), false, &parts[k]));
+    if (fates[k] == Fate::kHidden)
+      parts[k].visible = parts[k].least = parts[k].most = 0;
     all.whole += parts[k].whole;
     all.visible += parts[k].visible;
+    rest = parts[k].kink() / all_ > rest ? parts[k].kink() / all_ : rest;
   }
   const double coarse = sums.whole > 0 ? sums.visible / sums.whole : 0;
   const double fine = all.whole > 0 ? all.visible / all.whole : 0;
   const double left = kErrorLeft * std::fabs(fine - coarse) * part;
-  if (left <= tolerance && part <= 4 * largest_part_) {
-    // Both may agree by chance: what the quarters' own points show counts as well.
-    double rest = left;
-    for (const Sums& quarter : parts)
-      if (quarter.most > quarter.least)
-        rest = std::fmax(rest, kKinkShare * (quarter.most - quarter.least) * quarter.whole / all_);
-    if (rest <= tolerance) {
-      refined->whole += all.whole;
-      refined->visible += all.visible;
-      *error += rest;
-      return {};
-    }
+  // Two rules may agree by chance: what the quarters' own points show counts as well.
+  const bool agrees = left <= tolerance && rest <= tolerance;
+  if (agrees)
+    *error += left > rest ? left : rest;
+  for (int k = 0; k < 4; ++k) {
+    const bool is_done =
+        fates[k] != Fate::kOpen || (agrees && parts[k].whole <= largest_part_ * all_);
+    if (!is_done) // errors of parts are independent: their squares add up
+      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, refined, error));
+    refined->whole += is_done ? parts[k].whole : 0;
+    refined->visible += is_done ? parts[k].visible : 0;
   }
-  // Errors of parts are independent: their squares add up.
-  for (int k = 0; k < 4; ++k)
-    HC_TRY(refine(quarters[k], blockers, parts[k], tolerance / 2, refined, error));
+  while (blockers_.size() > blockers_before)
+    blockers_.pop_back();
   return {};
 }
 
@@ -231,8 +218,8 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   Sums refined;
   double error = 0;
   for (int k = 0; k < cells; ++k)
-    HC_TRY(refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, &refined,
-                  &error));
+    HC_TRY(
+        refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, &refined, &error));
   if (refined.whole > 0)
     share->share = refined.visible / refined.whole;
   share->error = error;

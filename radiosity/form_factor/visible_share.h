@@ -49,6 +49,8 @@ private:
   struct Sums {
     double whole = 0, visible = 0;
     double least = 1, most = 0; ///< visible share of a point
+    /// About how far a kink of the integrand between the points moves the sum.
+    double kink() const noexcept { return most > least ? 0.125 * (most - least) * whole : 0; }
   };
   static constexpr int kCellPoints = 4;
   static constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
@@ -70,10 +72,8 @@ private:
   Status sample(const Cell& cell, Range blockers, bool keeps, Sums* sums);
   Status find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept);
   Status narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate);
-  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
-                Sums* refined, double* error);
-  Status refine_open(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
-                     Sums* refined, double* error);
+  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance, Sums* refined,
+                double* error);
 
   const Facet* receiver_ = nullptr;
   const Facet* to_ = nullptr;
