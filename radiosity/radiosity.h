@@ -13,9 +13,15 @@ namespace hemicube::radiosity {
 /// What the caller chooses. The defaults are those of the command line.
 struct Options {
   Rung rung = Rung::kHemicube;
-  double error = 0.01;            ///< relative RMS error that rung adaptive leaves in a row
   std::uint32_t resolution = 256; ///< pixels along the hemicube's edge; even, 16..2048
-  double tolerance = 1e-6;        ///< on the estimated relative error of B
+  bool choose_rung = false;       ///< rung is chosen so that `error` is met
+  bool choose_resolution = false; ///< the same for resolution
+  /// Wanted: of a solution, the RMS error of B over its RMS, area-weighted; of form factors, the
+  /// RMS error of F over all pairs over its RMS. What rung adaptive aims at in partly visible
+  /// pairs, if it is asked for.
+  double error = 0.01;
+  bool estimate_error = false; ///< certify the error by a sample of finer rows
+  double tolerance = 1e-6;     ///< on the estimated relative error of B
   std::uint64_t max_sweeps = 1000000;
   bool black_irradiance = true; ///< gather the irradiance of patches that reflect nothing
   bool hash_items = false;      ///< hash every item buffer (slow)

@@ -2,17 +2,17 @@
 
 namespace hemicube::radiosity {
 
-Status RowRun::init(const PatchSet& patches, const Options& options, std::uint64_t total,
-                    Executor& executor, Progress* progress) {
+Status RowRun::init(RowGeometry* geometry, const RungSetting& setting, const Options& options,
+                    std::uint64_t total, Executor& executor, Progress* progress) {
   HC_TRY(check_float_environment());
   executor_ = &executor;
   progress_ = progress;
   total_ = total;
   done_ = 0;
+  HC_TRY(pairs_.init(0));
   const raster::Kernels& kernels =
       options.kernels != nullptr ? *options.kernels : raster::best_kernels();
-  HC_TRY(setup_.init(patches, options.rung, options.error, options.resolution, kernels,
-                     options.hash_items));
+  HC_TRY(setup_.init(geometry, setting, kernels, options.hash_items));
   return builders_.init(executor.worker_count());
 }
 
@@ -45,8 +45,7 @@ Status RowRun::report() {
   const std::uint64_t done = done_;
   if (progress_ == nullptr || progress_->rows(done, total_))
     return {};
-  return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_,
-                       " rows");
+  return Status::error(StatusCode::kCancelled, "interrupted after ", done, " of ", total_, " rows");
 }
 
 } // namespace hemicube::radiosity

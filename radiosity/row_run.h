@@ -15,8 +15,9 @@ class RowRun {
 public:
   /// @param total     rows that will be built in all, for `progress`
   /// @param progress  may be null
-  Status init(const PatchSet& patches, const Options& options, std::uint64_t total,
-              Executor& executor, Progress* progress);
+  /// @param geometry  outlives this
+  Status init(RowGeometry* geometry, const RungSetting& setting, const Options& options,
+              std::uint64_t total, Executor& executor, Progress* progress);
 
   /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
@@ -92,7 +93,7 @@ private:
 
   LadderSetup setup_;
   FixedArray<LadderRow> builders_;
-  ExchangeTable pairs_;        ///< once they were found
+  ExchangeTable pairs_;         ///< once they were found
   Buffer<RowFacts> pair_facts_; ///< [patch]
   Executor* executor_ = nullptr;
   Progress* progress_ = nullptr;

@@ -85,6 +85,9 @@ public:
     }
     if (line_.options.kernels == nullptr)
       line_.options.kernels = &raster::best_kernels();
+    // A selection of rows, to look at or to time: nothing is chosen by other rows unless asked for.
+    if (!line_.rows.is_all() && !error_is_given_)
+      line_.options.choose_rung = line_.options.choose_resolution = false;
   }
 
 private:
@@ -104,17 +107,27 @@ private:
 
   void add_common() {
     Options& options = line_.options;
+    options.choose_rung = options.choose_resolution = options.estimate_error = true;
     std::vector<CLI::Option*> common;
-    common.push_back(add_value(
-        &app_, "--resolution", "N", "pixels along the hemicube's edge: even, 16..2048 [256]",
-        [&](const std::string& text) { options.resolution = parse_resolution(text); }));
-    common.push_back(add_value(
-        &app_, "--rung", "NAME",
-        "how exact form factors are: hemicube, analytic, area, adaptive, exact [hemicube]",
-        [&](const std::string& text) { options.rung = parse_rung(text); }));
-    common.push_back(add_value(
-        &app_, "--error", "X", "relative error that rung adaptive aims at [0.01]",
-        [&](const std::string& text) { options.error = parse_real_number(text, 0, 1); }));
+    common.push_back(add_value(&app_, "--resolution", "N",
+                               "pixels along the hemicube's edge: even, 16..2048 [chosen]",
+                               [&](const std::string& text) {
+                                 options.resolution = parse_resolution(text);
+                                 options.choose_resolution = false;
+                               }));
+    common.push_back(
+        add_value(&app_, "--rung", "NAME",
+                  "how exact form factors are: hemicube, analytic, area, adaptive, exact [chosen]",
+                  [&](const std::string& text) {
+                    options.rung = parse_rung(text);
+                    options.choose_rung = false;
+                  }));
+    common.push_back(add_value(&app_, "--error", "X",
+                               "wanted error: rung and resolution are chosen to meet it [0.01]",
+                               [&](const std::string& text) {
+                                 options.error = parse_real_number(text, 0, 1);
+                                 error_is_given_ = true;
+                               }));
     common.push_back(add_value(
         &app_, "--tolerance", "X", "relative error of the radiosity the solver may leave [1e-6]",
         [&](const std::string& text) { options.tolerance = parse_real_number(text, 0, 1); }));
@@ -235,6 +248,7 @@ private:
   }
 
   CommandLine& line_;
+  bool error_is_given_ = false;
   std::shared_ptr<CLI::Formatter> formatter_ = std::make_shared<CLI::Formatter>();
   CLI::App app_{"Deterministic diffuse radiosity and form factors by hemicubes, on the CPU.",
                 "hemicube"};

@@ -8,7 +8,7 @@ namespace hemicube::radiosity {
 
 /// What two patches exchange: A_i F_ij = A_j F_ji, the same number for both rows.
 struct PairExchange {
-  std::uint32_t patch = 0; ///< the other one
+  std::uint32_t patch = 0;   ///< the other one
   bool is_estimated = false; ///< partly hidden: closure may scale it
   float error = 0;           ///< estimated, in units of value
   double value = 0;          ///< m^2; of a point, the form factor itself

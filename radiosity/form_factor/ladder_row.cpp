@@ -33,6 +33,9 @@ constexpr double kExactPart = 1.0 / 4096;
 
 constexpr std::uint32_t kManyPoints = 4096, kMostPoints = 1u << 20;
 
+/// Nanoseconds, about what they took once.
+constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 200;
+
 ConvexPolygon polygon_of(const Facet& facet) {
   ConvexPolygon polygon;
   for (const Vec3& corner : facet.corners)
@@ -56,35 +59,37 @@ const char* rung_name(Rung rung) noexcept {
   return kNames[static_cast<int>(rung)];
 }
 
-Status LadderSetup::init(const PatchSet& patches_in, Rung rung_in, double target_in,
-                         std::uint32_t resolution, const raster::Kernels& kernels,
-                         bool hash_items) {
-  rung = rung_in;
-  target = target_in;
-  patches = &patches_in;
-  HC_TRY(hemicube.init(polygons_of(patches_in), resolution, kernels, hash_items));
-  return rung == Rung::kHemicube ? Status() : facets.build(patches_in);
+Status LadderSetup::init(RowGeometry* geometry_in, const RungSetting& setting_in,
+                         const raster::Kernels& kernels, bool hash_items) {
+  geometry = geometry_in;
+  setting = setting_in;
+  HC_TRY(geometry_in->need_tree());
+  if (setting.rung != Rung::kHemicube)
+    HC_TRY(geometry_in->need_facets());
+  return hemicube.init(geometry->tree(), setting.resolution, kernels, hash_items);
 }
 
 double LadderSetup::integral_error() const noexcept {
-  if (rung == Rung::kExact)
+  if (setting.rung == Rung::kExact)
     return kExactIntegral;
-  return rung == Rung::kAdaptive ? std::min(kIntegralPerTarget * target, kFineIntegral * 10)
-                                 : kFineIntegral;
+  return setting.rung == Rung::kAdaptive
+             ? std::min(kIntegralPerTarget * setting.target, 10 * kFineIntegral)
+             : kFineIntegral;
 }
 
 Status LadderRow::init(const LadderSetup& setup) {
   HC_TRY(hemicube_.init(setup.hemicube));
-  if (setup.rung != Rung::kHemicube) {
-    const std::size_t count = setup.patches->patch_count();
+  if (setup.setting.rung != Rung::kHemicube) {
+    const std::size_t count = setup.geometry->patches().patch_count();
     HC_TRY(entries_.resize(count, {0, 0}));
     HC_TRY(touched_.reserve(count));
     HC_TRY(pixels_.resize(count));
     HC_TRY(columns_.resize(count));
     HC_TRY(values_.resize(count));
-    HC_TRY(integrator_.init(setup.facets.face_count(), setup.facets.tolerance()));
-    if (setup.facets.face_count() > kManyFaces)
-      HC_TRY(seen_faces_.resize(setup.facets.face_count()));
+    HC_TRY(integrator_.init(setup.geometry->facets().face_count(),
+                            setup.geometry->facets().tolerance()));
+    if (setup.geometry->facets().face_count() > kManyFaces)
+      HC_TRY(seen_faces_.resize(setup.geometry->facets().face_count()));
   }
   setup_ = &setup;
   return {};
@@ -92,11 +97,11 @@ Status LadderRow::init(const LadderSetup& setup) {
 
 Status LadderRow::build(const RowPlace& place, RowView* row, RowFacts* facts) {
   *facts = {};
-  if (setup_->rung != Rung::kHemicube) {
+  if (setup_->setting.rung != Rung::kHemicube) {
     HC_TRY(find_exchange(place, false, facts));
     return assemble(exchange_, {}, row, facts);
   }
-  *row = hemicube_.build(view_of(*setup_->patches, place));
+  *row = hemicube_.build(view_of(setup_->geometry->patches(), place));
   facts->hemicubes = 1;
   facts->raw_sum = row_sum(*row); // integer sums close by themselves
   facts->item_hash = hemicube_.item_hash();
@@ -111,24 +116,26 @@ Status LadderRow::find_pairs(std::uint32_t patch, ReceiverExchange* exchange, Ro
 }
 
 Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* facts) {
-  const raster::View view = view_of(*setup_->patches, place);
+  const raster::View view = view_of(setup_->geometry->patches(), place);
   const bool on_patch = place.patch != RowPlace::kNoPatch;
+  const std::uint64_t tests = seen_.test_count(), points = integrator_.point_count();
   pairs_.clear();
   exchange_ = {};
   rendered_ = false;
   if (!seen_faces_.empty())
     HC_TRY(mark_seen_faces(view, facts));
-  const std::uint32_t own_face =
-      on_patch ? setup_->facets.face_of(place.patch) : SeenTargets::kNoFace;
-  if (on_patch && setup_->rung != Rung::kAnalytic) {
-    exchange_.area = setup_->patches->area[place.patch];
-    for (const PatchPiece& piece : setup_->facets.pieces_of(place.patch))
+  const std::uint32_t own_face = on_patch ? facets().face_of(place.patch) : SeenTargets::kNoFace;
+  if (on_patch && setup_->setting.rung != Rung::kAnalytic) {
+    exchange_.area = setup_->geometry->patches().area[place.patch];
+    for (const PatchPiece& piece : facets().pieces_of(place.patch))
       HC_TRY(add_receiver(view, piece, own_face, own_only ? &piece : nullptr, facts));
   } else {
     const PatchPiece eye{place.patch, 1, Facet::of({&view.eye, 1}, view.axis_z)};
     HC_TRY(add_receiver(view, eye, own_face, nullptr, facts));
   }
   exchange_.pairs = pairs_.span();
+  facts->work = kTestCost * (seen_.test_count() - tests) +
+                kPointCost * (integrator_.point_count() - points) + kPairCost * pairs_.size();
   for (const std::uint32_t patch : pixel_patches_)
     pixels_[patch] = 0;
   pixel_patches_.clear();
@@ -154,16 +161,16 @@ Status LadderRow::mark_seen_faces(const raster::View& view, RowFacts* facts) {
   HC_TRY(render(view, facts));
   seen_faces_.fill(0);
   for (const std::uint32_t patch : pixel_patches_)
-    seen_faces_[setup_->facets.face_of(patch)] = 1;
+    seen_faces_[facets().face_of(patch)] = 1;
   return {};
 }
 
 /// Adds what one piece of the receiver exchanges.
 Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& receiver,
                                std::uint32_t own_face, const PatchPiece* owner, RowFacts* facts) {
-  HC_TRY(seen_.find(setup_->facets, receiver.facet, own_face, seen_faces_.span(), owner));
+  HC_TRY(seen_.find(facets(), receiver.facet, own_face, seen_faces_.span(), owner));
   integrator_.set_receiver(receiver.facet);
-  if (setup_->rung <= Rung::kArea)
+  if (setup_->setting.rung <= Rung::kArea)
     for (const SeenTarget& target : seen_.targets())
       rendered_ |= target.blocker_count != 0;
   if (rendered_)
@@ -172,8 +179,8 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
     if (target.is_back() && rendered_)
       continue; // the item buffer shows them
     ConvexPolygon corners;
-    const Facet facet = target.is_back() ? reversed(setup_->facets.face(target.face), &corners)
-                                         : target.piece->facet;
+    const Facet facet =
+        target.is_back() ? reversed(facets().face(target.face), &corners) : target.piece->facet;
     const AreaIntegral whole = find_whole(receiver, facet);
     if (!(whole.value > 0))
       continue;
@@ -206,13 +213,13 @@ AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const Facet& targ
 Status LadderRow::find_share(const raster::View& view, const PatchPiece& receiver,
                              const SeenTarget& target, const Facet& facet, double whole,
                              VisibleShare* share, RowFacts* facts) {
-  if (setup_->rung > Rung::kArea)
+  if (setup_->setting.rung > Rung::kArea)
     return integrate_share(receiver, target, facet, effort_for(receiver.area, target, whole),
                            share);
   const double resolution = setup_->hemicube.delta.resolution();
   const double pixel = 1 / (3 * resolution * resolution);
   const std::uint32_t patch = target.piece->patch;
-  const bool has_one_piece = setup_->facets.pieces_of(patch).size() == 1;
+  const bool has_one_piece = facets().pieces_of(patch).size() == 1;
   const double from_eye = point_to_polygon(view.eye, view.axis_z, facet.corners);
   if (has_one_piece && from_eye > kFewPixels * pixel) {
     const double seen = static_cast<double>(pixels_[patch]) / from_eye;
@@ -226,13 +233,13 @@ Status LadderRow::find_share(const raster::View& view, const PatchPiece& receive
 
 /// The same for both rows of a pair.
 Effort LadderRow::effort_for(double area, const SeenTarget& target, double whole) const {
-  if (setup_->rung == Rung::kExact)
+  if (setup_->setting.rung == Rung::kExact)
     return {kExactShare, kExactPart, kMostPoints};
   // The larger of the two form factors of the pair.
   const double smaller = !target.is_back() && target.piece->area < area ? target.piece->area : area;
   const double largest = whole / smaller;
-  return {kSharePerTarget * setup_->target, kUnseenPerTarget * setup_->target / largest,
-          kManyPoints};
+  return {kSharePerTarget * setup_->setting.target,
+          kUnseenPerTarget * setup_->setting.target / largest, kManyPoints};
 }
 
 Status LadderRow::integrate_share(const PatchPiece& receiver, const SeenTarget& target,

@@ -3,6 +3,7 @@
 #include "radiosity/form_factor/area_to_area.h"
 #include "radiosity/form_factor/exchange_table.h"
 #include "radiosity/form_factor/row_builder.h"
+#include "radiosity/form_factor/row_geometry.h"
 #include "radiosity/form_factor/rung.h"
 #include "radiosity/form_factor/seen_patches.h"
 #include "radiosity/form_factor/visible_share.h"
@@ -11,18 +12,16 @@ namespace hemicube::radiosity {
 
 /// What all rows of a scene share on any rung. Built once, read by every worker.
 struct LadderSetup {
-  Rung rung = Rung::kHemicube;
-  double target = 0.01; ///< relative RMS error of a row, for rung adaptive
-  const PatchSet* patches = nullptr;
+  RungSetting setting;
+  const RowGeometry* geometry = nullptr;
   RowSetup hemicube;
-  SceneFacets facets; ///< not built on rung hemicube
 
-  /// @param patches_in  outlive this
-  Status init(const PatchSet& patches_in, Rung rung_in, double target_in, std::uint32_t resolution,
+  /// @param geometry_in  outlives this; what the rung needs is built
+  Status init(RowGeometry* geometry_in, const RungSetting& setting_in,
               const raster::Kernels& kernels, bool hash_items);
 
   /// True if both rows of a pair of patches say the same of it, so that it need be found only once.
-  bool shares_pairs() const noexcept { return rung >= Rung::kAdaptive; }
+  bool shares_pairs() const noexcept { return setting.rung >= Rung::kAdaptive; }
 
   /// Relative, of integrals over pairs with nothing in between.
   double integral_error() const noexcept;
@@ -41,7 +40,9 @@ struct RowFacts {
   std::uint32_t hemicubes = 0;
   std::uint32_t subpixel_patches = 0; ///< seen without a pixel of their own
   double raw_sum = 0;                 ///< of the row, before closure
-  double error = 0; ///< estimated: root of the sum of the squared errors of the entries
+  double error = 0;       ///< estimated: root of the sum of the squared errors of the entries
+  std::uint64_t work = 0; ///< what it took without hemicubes, roughly nanoseconds; not a
+                          ///< measurement: the same everywhere
   std::uint64_t item_hash = 0;
 };
 
@@ -71,6 +72,7 @@ private:
     double proven, estimated;
   };
 
+  const SceneFacets& facets() const noexcept { return setup_->geometry->facets(); }
   Status find_exchange(const RowPlace& place, bool own_only, RowFacts* facts);
   Status mark_seen_faces(const raster::View& view, RowFacts* facts);
   Status add_receiver(const raster::View& view, const PatchPiece& receiver, std::uint32_t own_face,

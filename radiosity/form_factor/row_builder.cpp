@@ -14,21 +14,21 @@ constexpr std::size_t kRowsAhead = 2;
 
 } // namespace
 
-Status RowSetup::init(const raster::Polygons& polygons, std::uint32_t resolution,
+Status RowSetup::init(const raster::PolygonTree& tree_in, std::uint32_t resolution,
                       const raster::Kernels& kernels_in, bool hash_items_in) {
   kernels = &kernels_in;
   hash_items = hash_items_in;
-  HC_TRY(delta.init(resolution));
-  return tree.build(polygons);
+  tree = &tree_in;
+  return delta.init(resolution);
 }
 
 Status RowBuilder::init(const RowSetup& setup) {
-  HC_TRY(rasterizer_.init(setup.tree, *setup.kernels));
+  HC_TRY(rasterizer_.init(*setup.tree, *setup.kernels));
   HC_TRY(buffer_.init());
   const std::uint64_t resolution = setup.delta.resolution();
   const std::uint64_t most_entries =
-      std::min<std::uint64_t>(setup.tree.polygon_count(), 3 * resolution * resolution);
-  HC_TRY(accumulator_.init(setup.tree.polygon_count(), most_entries));
+      std::min<std::uint64_t>(setup.tree->polygon_count(), 3 * resolution * resolution);
+  HC_TRY(accumulator_.init(setup.tree->polygon_count(), most_entries));
   HC_TRY(columns_.resize(most_entries + 1));
   HC_TRY(values_.resize(most_entries + 1));
   setup_ = &setup;

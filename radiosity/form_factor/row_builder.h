@@ -9,12 +9,13 @@ namespace hemicube::radiosity {
 
 /// What all rows of a scene share. Built once, read by every worker.
 struct RowSetup {
-  raster::PolygonTree tree;
+  const raster::PolygonTree* tree = nullptr;
   DeltaFormFactors delta;
   const raster::Kernels* kernels = nullptr;
   bool hash_items = false;
 
-  Status init(const raster::Polygons& polygons, std::uint32_t resolution,
+  /// @param tree_in  outlives this
+  Status init(const raster::PolygonTree& tree_in, std::uint32_t resolution,
               const raster::Kernels& kernels_in, bool hash_items_in);
 };
 

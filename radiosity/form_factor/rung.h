@@ -14,6 +14,13 @@ enum class Rung : std::uint8_t {
   kExact     ///< the same to 1e-6, for small scenes and as the oracle of the others
 };
 
+/// A rung and what it leaves open.
+struct RungSetting {
+  Rung rung = Rung::kHemicube;
+  std::uint32_t resolution = 256; ///< of the item buffer
+  double target = 0.01;           ///< of rung adaptive: relative error of partly visible pairs
+};
+
 /// "hemicube", "analytic", ...
 const char* rung_name(Rung rung) noexcept;
 

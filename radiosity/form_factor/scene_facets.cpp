@@ -49,8 +49,8 @@ Status SceneFacets::fill_pieces(const PatchSet& patches) {
     const auto corners = patches.corners_of(i);
     for (const std::uint32_t corner : corners) {
       const Vec3& v = patches.vertices[corner];
-      largest = std::fmax(largest,
-                          std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z))));
+      largest =
+          std::fmax(largest, std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z))));
     }
     // A fan of pieces around the first corner.
     for (std::size_t k = 1; k + 1 < corners.size(); k += kMost - 2) {

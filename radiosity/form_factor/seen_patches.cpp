@@ -46,6 +46,7 @@ Status SeenTargets::gather(const SceneFacets& scene, Shaft* shaft, std::uint32_t
     const std::uint32_t first = scene.first_face_of(other);
     if (first == scene.first_face_of(face) || first == own_face_ || !scene.can_block(other))
       return true;
+    ++test_count_;
     const Shaft::Verdict verdict = shaft->test(scene.face(other));
     *is_hidden = verdict == Shaft::Verdict::kBlocksAll;
     if (verdict == Shaft::Verdict::kMayBlock)
@@ -92,6 +93,7 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
   if (!between_.empty()) {
     Shaft shaft(receiver, piece.facet, tolerance);
     for (const std::uint32_t other : between_) {
+      ++test_count_;
       const Shaft::Verdict verdict = shaft.test(scene.face(other));
       if (verdict == Shaft::Verdict::kBlocksAll) {
         while (blockers_.size() > target.first_blocker)
@@ -113,8 +115,7 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
   return targets_.push_back(target);
 }
 
-Status SeenTargets::find_back(const SceneFacets& scene, const Facet& receiver,
-                              std::uint32_t face) {
+Status SeenTargets::find_back(const SceneFacets& scene, const Facet& receiver, std::uint32_t face) {
   ConvexPolygon corners;
   const Facet back = reversed(scene.face(face), &corners);
   Shaft shaft(receiver, back, scene.tolerance());

@@ -25,7 +25,8 @@ public:
   /// @param receiver  a patch, or a point: a facet with a single corner
   /// @param own_face  the face the receiver lies on, which it does not see; kNoFace for none
   /// @param is_wanted  [face] 0 for those to leave out; empty = all are wanted
-  /// @param owner      leaves out the pieces whose pairs with this one belong to them; null for none
+  /// @param owner      leaves out the pieces whose pairs with this one belong to them; null for
+  /// none
   /// @return kOutOfMemory
   Status find(const SceneFacets& scene, const Facet& receiver, std::uint32_t own_face,
               std::span<const std::uint8_t> is_wanted, const PatchPiece* owner);
@@ -34,6 +35,9 @@ public:
   std::span<const Blocker> blockers_of(const SeenTarget& target) const noexcept {
     return blockers_.span().subspan(target.first_blocker, target.blocker_count);
   }
+
+  /// Facets that were tested against shafts since this was made.
+  std::uint64_t test_count() const noexcept { return test_count_; }
 
   static constexpr std::uint32_t kNoFace = 0xffffffffu;
 
@@ -49,6 +53,7 @@ private:
   Buffer<std::uint32_t> between_; ///< faces that may lie between receiver and the face at hand
   std::uint32_t own_face_ = kNoFace;
   const PatchPiece* owner_ = nullptr;
+  std::uint64_t test_count_ = 0;
 };
 
 /// The same facet seen from behind: corners reversed.

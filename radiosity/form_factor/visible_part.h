@@ -25,7 +25,7 @@ struct Shadow {
     }
   };
 
-  int side_count = 0; ///< 0: seen edge-on, nothing is hidden
+  int side_count = 0;  ///< 0: seen edge-on, nothing is hidden
   double distance = 0; ///< of the eye from the blocker's plane
   Side sides[kMaxBlockerCorners + 1];
 

@@ -39,6 +39,9 @@ public:
   /// The same for a receiver that is a single point.
   Status find_at_point(const Facet& to, std::span<const Blocker> blockers, VisibleShare* share);
 
+  /// Points spent since this was made.
+  std::uint64_t point_count() const noexcept { return point_count_; }
+
 private:
   /// A part of a quadrilateral, in its own coordinates 0..1 x 0..1.
   struct Cell {

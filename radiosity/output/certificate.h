@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/form_factor/reciprocity.h"
+#include "radiosity/form_factor/rung.h"
 #include "raster/memory.h"
 
 #include <cstdint>
@@ -40,6 +41,11 @@ struct Certificate {
 
   Range row_sum_raw, row_sum; ///< before and after closure
   WorstFraction space, back_side;
+
+  RungSetting setting; ///< what was asked for or chosen
+  bool has_form_factor_error = false, has_radiosity_error = false;
+  double form_factor_error = 0; ///< estimate: RMS error of F over all pairs over the RMS of F
+  double radiosity_error = 0;   ///< estimate: RMS error of B over its RMS, area-weighted
 
   bool has_reciprocity = false; ///< all patches have a row, or those that reflect
   Reciprocity reciprocity;

@@ -87,9 +87,13 @@ Json hashes_json(const Certificate& certificate) {
 Json options_json(const ReportParts& parts) {
   const Options& options = parts.options;
   Json json = Json::object();
-  json["rung"] = rung_name(options.rung);
-  json["resolution"] = options.resolution;
-  if (options.rung == Rung::kAdaptive)
+  const RungSetting& setting = parts.certificate.setting;
+  json["rung"] = rung_name(setting.rung);
+  if (setting.rung <= Rung::kArea)
+    json["resolution"] = setting.resolution;
+  if (setting.rung == Rung::kAdaptive)
+    set(&json, "target", setting.target);
+  if (options.choose_rung || options.choose_resolution)
     set(&json, "error", options.error);
   if (parts.max_edge != 0)
     json["max_edge"] = parts.max_edge;
@@ -113,6 +117,13 @@ Json result_json(const ReportParts& parts) {
   json["row_sum"] = range_json(certificate.row_sum);
   json["space"] = fraction_json(certificate.space);
   json["back_side"] = fraction_json(certificate.back_side);
+  if (certificate.has_form_factor_error || certificate.has_radiosity_error) {
+    Json& error = json["error"] = Json::object();
+    if (certificate.has_form_factor_error)
+      set(&error, "form_factor", certificate.form_factor_error);
+    if (certificate.has_radiosity_error)
+      set(&error, "radiosity", certificate.radiosity_error);
+  }
   if (certificate.has_reciprocity) {
     Json& reciprocity = json["reciprocity"] = Json::object();
     set(&reciprocity, "max", certificate.reciprocity.max);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "radiosity/row_run.h"
+#include "radiosity/row_sample.h"
+
+namespace hemicube::radiosity {
+
+/// Rows that the error of all is estimated by, or all if there are not more.
+inline constexpr std::uint32_t kErrorSampleRows = 48;
+
+/// A setting that is so much finer that its error does not count beside that of `setting`.
+RungSetting finer_setting(const RungSetting& setting) noexcept;
+
+/// Fills a sample's exact rows.
+Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
+                          Executor& executor, RowSample* sample);
+
+/// The relative RMS error of B over all bands, area-weighted, that follows from what the sampled
+/// rows gather too much: every other patch is given that of the nearest sampled one by number, and
+/// the light that all of these make is solved for.
+/// @param matrix     rows of all patches that reflect
+/// @param radiosity  [patch][band] the solution of `problem` with it
+Status estimate_radiosity_error(const RowSample& sample, const FormFactorMatrix& matrix,
+                                const LightProblem& problem, std::span<const double> radiosity,
+                                Executor& executor, double* error);
+
+} // namespace hemicube::radiosity

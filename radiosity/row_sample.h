@@ -1,0 +1,71 @@
+#pragma once
+
+#include "radiosity/form_factor/matrix.h"
+#include "radiosity/solve/light_problem.h"
+
+namespace hemicube::radiosity {
+
+/// Some rows of a matrix computed much more exactly: what the error of all rows is judged by.
+class RowSample {
+public:
+  /// Chooses `count` patches spread evenly over all by number, or all if there are not more.
+  Status choose(std::uint32_t patch_count, std::uint32_t count) noexcept;
+
+  std::span<const std::uint32_t> patches() const noexcept { return patches_.span(); }
+
+  /// The exact rows: row k belongs to patches()[k].
+  FormFactorMatrix exact;
+
+  /// RMS over the sampled rows of the error of a form factor, over the RMS of a form factor.
+  /// @param row_of      RowView(k), the row to judge of patches()[k]
+  /// @param has_row     bool(k)
+  template <typename RowOf, typename HasRow>
+  double form_factor_error(RowOf row_of, HasRow has_row) const {
+    double errors = 0, all = 0;
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      if (!has_row(k))
+        continue;
+      const RowView row = row_of(k), truth = exact.row(k);
+      double row_errors = 0;
+      for_each_difference(row, truth, [&](std::uint32_t, double difference) {
+        row_errors += difference * difference;
+      });
+      errors += row_errors;
+      for (const float value : truth.values)
+        all += truth.scale * truth.scale * static_cast<double>(value) * static_cast<double>(value);
+    }
+    return all > 0 ? root(errors / all) : 0;
+  }
+
+  /// What a row gathers too much: rho_i (sum_j (F_ij - exact) B_j + (s_i - exact) E_space).
+  /// @param radiosity  [patch][band], W/m^2
+  /// @param defect     [band], out
+  void defect(std::size_t k, const RowView& row, const LightProblem& problem,
+              std::span<const double> radiosity, double* defect) const noexcept;
+
+  /// Calls take(column, a - b) for every column that either row has, ascending.
+  template <typename Take>
+  static void for_each_difference(const RowView& a, const RowView& b, Take take) {
+    std::size_t i = 0, j = 0;
+    while (i < a.columns.size() || j < b.columns.size()) {
+      const bool takes_a =
+          j == b.columns.size() || (i < a.columns.size() && a.columns[i] <= b.columns[j]);
+      const bool takes_b =
+          i == a.columns.size() || (j < b.columns.size() && b.columns[j] <= a.columns[i]);
+      const std::uint32_t column = takes_a ? a.columns[i] : b.columns[j];
+      double difference = 0;
+      if (takes_a)
+        difference += a.scale * static_cast<double>(a.values[i++]);
+      if (takes_b)
+        difference -= b.scale * static_cast<double>(b.values[j++]);
+      take(column, difference);
+    }
+  }
+
+private:
+  static double root(double x) noexcept;
+
+  Buffer<std::uint32_t> patches_; ///< ascending
+};
+
+} // namespace hemicube::radiosity
