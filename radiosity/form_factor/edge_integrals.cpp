@@ -14,6 +14,8 @@ constexpr double kAligned = 0x1p-49;
 constexpr double kMaxClosedFormRatio = 64;
 /// Halvings of an edge towards where another touches it.
 constexpr int kMaxDepth = 48;
+/// Squared distances below this are 0: around 1, what they multiply does not count.
+constexpr double kNothing = 0x1p-900;
 constexpr int kOrders[] = {2, 3, 4, 5, 6, 7, 8, 10, 12, 16};
 
 struct Edge {
@@ -35,41 +37,52 @@ int edges_of(const ConvexPolygon& polygon, Edge* edges) {
   return count;
 }
 
-/// The second antiderivative of ln sqrt(v^2 + h^2), less v^2 / 2: constants in the integrand drop
-/// out of the sum over a closed contour.
-double parallel_primitive(double v, double h) {
-  const double square = v * v + h * h;
-  if (square == 0)
-    return 0;
-  return 0.25 * ((v * v - h * h) * logarithm(square) - v * v) + h * v * arctangent2(v, h);
-}
-
 /// The integral of ln r over two parallel edges, plus the product of their lengths.
 double parallel_integral(const Edge& p, const Edge& q, double cosine) {
   const Vec3 offset = q.start - p.start;
   const Vec3 across = glm::cross(offset, p.direction);
-  const double h = std::sqrt(glm::dot(across, across));
+  const double h_square = glm::dot(across, across), h = std::sqrt(h_square);
   // Where q begins and ends along p.
   const double start = glm::dot(offset, p.direction);
   const double end = cosine > 0 ? start + q.length : start - q.length;
   const double low = start < end ? start : end, high = start < end ? end : start;
-  return (parallel_primitive(p.length - low, h) - parallel_primitive(-low, h)) -
-         (parallel_primitive(p.length - high, h) - parallel_primitive(-high, h));
+  // The second antiderivative of ln sqrt(v^2 + h^2), less v^2 / 2: constants in the integrand drop
+  // out of the sum over a closed contour.
+  const double v[4] = {p.length - low, -low, p.length - high, -high};
+  double primitive[4];
+  for (int k = 0; k < 4; ++k) {
+    const double v_square = v[k] * v[k], square = v_square + h_square;
+    const double magnitude = v[k] < 0 ? -v[k] : v[k];
+    primitive[k] =
+        0.25 * ((v_square - h_square) * logarithm_of_normal(square > kNothing ? square : 1.0) -
+                v_square) +
+        h * magnitude * angle_above(magnitude, h);
+  }
+  return (primitive[0] - primitive[1]) - (primitive[2] - primitive[3]);
 }
 
-/// The integral of ln r from a point to an edge, plus the edge's length.
-double inner_integral(const Vec3& point, const Edge& q) {
-  const Vec3 arm = q.start - point;
-  const double u0 = glm::dot(arm, q.direction), u1 = u0 + q.length;
-  const Vec3 across = glm::cross(arm, q.direction);
-  const double square = glm::dot(across, across), h = std::sqrt(square);
-  const double r0 = u0 * u0 + square, r1 = u1 * u1 + square;
-  double sum = 0;
-  if (r1 > 0)
-    sum += u1 * logarithm(r1);
-  if (r0 > 0)
-    sum -= u0 * logarithm(r0);
-  return 0.5 * sum + h * arctangent2(h * q.length, square + u0 * u1);
+/// The mean over a rule's points of the integral of ln r from the point to an edge, plus the edge's
+/// length. @param first, last  ends of the interval the points are on
+double mean_inner_integral(const Vec3& first, const Vec3& last, int order, const Edge& q) {
+  const GaussNode* nodes = gauss_legendre(order);
+  const Vec3 arm = q.start - (first + last) * 0.5, half = (last - first) * 0.5;
+  const Vec3 f = q.direction;
+  double value[16];
+  for (int k = 0; k < order; ++k) {
+    const double x = nodes[k].x;
+    const double ax = arm.x - half.x * x, ay = arm.y - half.y * x, az = arm.z - half.z * x;
+    const double u0 = ax * f.x + ay * f.y + az * f.z, u1 = u0 + q.length;
+    const double cx = ay * f.z - az * f.y, cy = az * f.x - ax * f.z, cz = ax * f.y - ay * f.x;
+    const double square = cx * cx + cy * cy + cz * cz, h = std::sqrt(square);
+    const double r0 = u0 * u0 + square, r1 = u1 * u1 + square;
+    value[k] = 0.5 * (u1 * logarithm_of_normal(r1 > kNothing ? r1 : 1.0) -
+                      u0 * logarithm_of_normal(r0 > kNothing ? r0 : 1.0)) +
+               h * angle_above(h * q.length, square + u0 * u1);
+  }
+  double mean = 0;
+  for (int k = 0; k < order; ++k)
+    mean += nodes[k].weight * value[k];
+  return mean;
 }
 
 double distance(const Vec3& a, const Vec3& b) {
@@ -161,12 +174,7 @@ double graded_integral(const Edge& p, const Edge& q, double cosine, double toler
       stack[top++] = {here.lo, middle, here.depth + 1};
       continue;
     }
-    const GaussNode* nodes = gauss_legendre(order);
-    double mean = 0;
-    for (int k = 0; k < order; ++k)
-      mean += nodes[k].weight *
-              inner_integral(p.at(0.5 * ((here.lo + here.hi) + length * nodes[k].x)), q);
-    sum += mean * length;
+    sum += length * mean_inner_integral(p.at(here.lo), p.at(here.hi), order, q);
     *error += bound;
   }
   return sum;

@@ -9,9 +9,22 @@
 namespace hemicube::radiosity {
 namespace {
 
-constexpr int kMaxOrder = 6, kMaxPoints = 36;
+constexpr int kMaxOrder = 5, kMaxPoints = 26;
 /// Kernel evaluations; more are left to the choice among all methods.
 constexpr int kMaxEvaluations = 260;
+
+/// What the Gauss rule of each order gets wrong in x^2n, times 2n+1 and 2n, and how much more the
+/// Gegenbauer polynomials of index 2 and those degrees may be along a line than across it.
+struct BoundTerms {
+  double at_n, at_n1, most_n, most_n1;
+};
+constexpr BoundTerms bound_terms(int order, double constant) {
+  const double n = 2 * order;
+  return {constant * (n + 1), constant * n, (n + 2) * (n + 3) / 6, (n + 1) * (n + 2) / 6};
+}
+constexpr BoundTerms kBoundTerms[kMaxOrder] = {
+    bound_terms(1, 1.0 / 3), bound_terms(2, 4.0 / 45), bound_terms(3, 4.0 / 175),
+    bound_terms(4, 64.0 / 11025), bound_terms(5, 64.0 / 43659)};
 
 /// How a parallelogram stands over the other's plane.
 struct Height {
@@ -22,62 +35,120 @@ struct Height {
         spread(std::fabs(u) + std::fabs(v)) {}
 };
 
-/// 1 / sin^2 of the smallest angle between an edge and any line between the two, or more.
-/// @param along  of the line between the centres, along the edge, times the edge's length
-double steepness(double square, double along, double length, double distance, double spread) {
-  const double offset = std::sqrt(square * length * length - along * along) - spread * length;
-  if (!(offset > 0))
-    return kAnySteepness;
-  const double inverse = (distance + spread) * length / offset;
-  return inverse * inverse;
-}
-
+/// The orders along the parameters u and v of p, then of q.
 struct Orders {
-  int u = 0, v = 0;
+  double order[4];
+  double bound = 0; ///< of the relative error; infinite if no order is good enough
 };
 
-Orders orders_for(const PreparedArea& one, const PreparedArea& other, const Vec3& between,
-                  double square, double distance, double tilt, double limit, double* bound) {
-  const double spread = one.radius + other.radius;
-  const auto order = [&](const Vec3& half, double length, double other_length) {
-    const double steep = steepness(square, glm::dot(between, half), length, distance, spread);
-    return smallest_order(length, distance - other_length - other.radius, steep, tilt, 0, limit,
-                          bound);
-  };
-  return {order(one.half_u, one.length_u, one.length_v),
-          order(one.half_v, one.length_v, one.length_u)};
-}
+/// What smallest_order does, for four lines at once: as long as it is mostly loops of four, it
+/// vectorises.
+class OrderChoice {
+public:
+  OrderChoice(const PreparedArea& p, const PreparedArea& q, const Vec3& between, double square,
+              double distance, double p_tilt, double q_tilt) {
+    const double half[4] = {p.length_u, p.length_v, q.length_u, q.length_v};
+    const double along[4] = {glm::dot(between, p.half_u), glm::dot(between, p.half_v),
+                             glm::dot(between, q.half_u), glm::dot(between, q.half_v)};
+    const double near[4] = {distance - p.length_v - q.radius, distance - p.length_u - q.radius,
+                            distance - q.length_v - p.radius, distance - q.length_u - p.radius};
+    const double tilt[4] = {p_tilt, p_tilt, q_tilt, q_tilt};
+    const double spread = p.radius + q.radius, reach = distance + spread;
+    for (int k = 0; k < 4; ++k)
+      too_near_ |= !(near[k] > 1.25 * half[k]);
+    for (int k = 0; k < 4; ++k) {
+      const double t = half[k] * near[k] / (near[k] * near[k] - 0.31 * half[k] * half[k]);
+      square_[k] = t * t;
+      tilt_[k] = tilt[k] * t;
+      // 1 / sin^2 of the smallest angle between the line and one to the other polygon.
+      const double across = square * half[k] * half[k] - along[k] * along[k];
+      const double offset = std::sqrt(across > 0 ? across : 0) - spread * half[k];
+      const double most = reach * half[k], least = offset > 1e-100 * most ? offset : 1e-100 * most;
+      steepness_[k] = most * most / (least * least);
+    }
+  }
 
-/// The points of a rule on a parallelogram by coordinate, an even number, and their weights times
-/// heights, which sum to the mean height.
-struct Points {
-  int count = 0;
-  double x[kMaxPoints], y[kMaxPoints], z[kMaxPoints], weight[kMaxPoints];
-
-  Points(const PreparedArea& area, const Height& height, const Vec3& shift, Orders orders) {
-    const GaussNode *us = gauss_legendre(orders.u), *vs = gauss_legendre(orders.v);
-    for (int i = 0; i < orders.u; ++i) {
-      const Vec3 start = shift + area.half_u * us[i].x;
-      const double above = height.middle + height.u * us[i].x;
-      for (int j = 0; j < orders.v; ++j) {
-        const double v = vs[j].x;
-        x[count] = start.x + area.half_v.x * v;
-        y[count] = start.y + area.half_v.y * v;
-        z[count] = start.z + area.half_v.z * v;
-        weight[count] = us[i].weight * vs[j].weight * (above + height.v * v);
-        ++count;
+  Orders choose(double limit) const {
+    Orders found;
+    double bound[4] = {0, 0, 0, 0}, power[4] = {1, 1, 1, 1}, enough[4], order[4] = {0, 0, 0, 0};
+    for (int k = 0; k < 4; ++k)
+      enough[k] = limit * (1 - 0.25 * square_[k]);
+    for (int n = 0; n < kMaxOrder; ++n) {
+      const BoundTerms terms = kBoundTerms[n];
+      for (int k = 0; k < 4; ++k) {
+        const double along_n = terms.most_n < steepness_[k] ? terms.most_n : steepness_[k];
+        const double along_n1 = terms.most_n1 < steepness_[k] ? terms.most_n1 : steepness_[k];
+        const double here =
+            power[k] * (terms.at_n * along_n * square_[k] + terms.at_n1 * along_n1 * tilt_[k]);
+        bound[k] = bound[k] > 0 ? bound[k] : here <= enough[k] ? here : 0;
+        order[k] += bound[k] > 0 ? 0.0 : 1.0;
+        power[k] *= square_[k];
       }
     }
-    if (count % 2 != 0) {
-      x[count] = x[count - 1];
-      y[count] = y[count - 1];
-      z[count] = z[count - 1];
-      weight[count] = 0;
-      ++count;
+    for (int k = 0; k < 4; ++k) {
+      found.order[k] = order[k] + 1;
+      found.bound += order[k] < kMaxOrder ? bound[k] / (1 - 0.25 * square_[k]) : kAnySteepness;
     }
+    if (too_near_)
+      found.bound = kAnySteepness;
+    return found;
+  }
+
+private:
+  bool too_near_ = false;
+  double square_[4], tilt_[4], steepness_[4];
+};
+
+/// The nodes of a tensor rule in one row, an even number: the last may have no weight.
+struct TensorNodes {
+  int count = 0;
+  double u[kMaxPoints] = {}, v[kMaxPoints] = {}, weight[kMaxPoints] = {};
+
+  constexpr TensorNodes() = default;
+  constexpr TensorNodes(int order_u, int order_v) {
+    const GaussNode *us = gauss_legendre(order_u), *vs = gauss_legendre(order_v);
+    for (int i = 0; i < order_u; ++i)
+      for (int j = 0; j < order_v; ++j) {
+        u[count] = us[i].x;
+        v[count] = vs[j].x;
+        weight[count++] = us[i].weight * vs[j].weight;
+      }
+    count += count & 1;
   }
 };
 
+struct TensorTable {
+  TensorNodes nodes[kMaxOrder][kMaxOrder];
+
+  constexpr TensorTable() {
+    for (int i = 0; i < kMaxOrder; ++i)
+      for (int j = 0; j < kMaxOrder; ++j)
+        nodes[i][j] = TensorNodes(i + 1, j + 1);
+  }
+};
+constexpr TensorTable kTensors;
+
+/// The points of a rule on a parallelogram by coordinate, and their weights times heights.
+struct Points {
+  int count;
+  double x[kMaxPoints], y[kMaxPoints], z[kMaxPoints], weight[kMaxPoints];
+
+  Points(const PreparedArea& area, const Height& height, const Vec3& shift,
+         const TensorNodes& nodes)
+      : count(nodes.count) {
+    const Vec3 s = shift, e = area.half_u, f = area.half_v;
+    for (int k = 0; k < count; k += 2)
+      for (int lane = k; lane < k + 2; ++lane) {
+        const double u = nodes.u[lane], v = nodes.v[lane];
+        x[lane] = (s.x + e.x * u) + f.x * v;
+        y[lane] = (s.y + e.y * u) + f.y * v;
+        z[lane] = (s.z + e.z * u) + f.z * v;
+        weight[lane] = nodes.weight[lane] * ((height.middle + height.u * u) + height.v * v);
+      }
+  }
+};
+
+/// The sum over both rules of weight * weight / r^4.
 double mean_kernel(const Points& p, const Points& q) {
   double received[kMaxPoints];
   const int count = p.count;
@@ -86,14 +157,15 @@ double mean_kernel(const Points& p, const Points& q) {
   for (int j = 0; j < q.count; j += 2) {
     const double x0 = q.x[j], y0 = q.y[j], z0 = q.z[j], w0 = q.weight[j];
     const double x1 = q.x[j + 1], y1 = q.y[j + 1], z1 = q.z[j + 1], w1 = q.weight[j + 1];
-    for (int i = 0; i < count; ++i) {
-      const double dx0 = p.x[i] - x0, dy0 = p.y[i] - y0, dz0 = p.z[i] - z0;
-      const double dx1 = p.x[i] - x1, dy1 = p.y[i] - y1, dz1 = p.z[i] - z1;
-      const double square0 = dx0 * dx0 + dy0 * dy0 + dz0 * dz0;
-      const double square1 = dx1 * dx1 + dy1 * dy1 + dz1 * dz1;
-      const double r0 = square0 * square0, r1 = square1 * square1;
-      received[i] += (w0 * r1 + w1 * r0) / (r0 * r1); // two kernels, one division
-    }
+    for (int k = 0; k < count; k += 2)
+      for (int i = k; i < k + 2; ++i) {
+        const double dx0 = p.x[i] - x0, dy0 = p.y[i] - y0, dz0 = p.z[i] - z0;
+        const double dx1 = p.x[i] - x1, dy1 = p.y[i] - y1, dz1 = p.z[i] - z1;
+        const double square0 = dx0 * dx0 + dy0 * dy0 + dz0 * dz0;
+        const double square1 = dx1 * dx1 + dy1 * dy1 + dz1 * dz1;
+        const double r0 = square0 * square0, r1 = square1 * square1;
+        received[i] += (w0 * r1 + w1 * r0) / (r0 * r1); // two kernels, one division
+      }
   }
   double sum = 0;
   for (int i = 0; i < count; ++i)
@@ -125,18 +197,19 @@ bool far_exchange(const PreparedArea& p, const PreparedArea& q, double relative_
     return false;
   const double p_tilt = p_height.spread < p_height.middle ? p_height.spread / p_height.middle : 1;
   const double q_tilt = q_height.spread < q_height.middle ? q_height.spread / q_height.middle : 1;
-  double bound = 0;
-  const double limit = 0.25 * relative_error;
-  const Orders on_p = orders_for(p, q, between, square, distance, p_tilt, limit, &bound);
-  const Orders on_q = orders_for(q, p, between, square, distance, q_tilt, limit, &bound);
-  const int p_count = on_p.u * on_p.v, q_count = on_q.u * on_q.v;
-  if (p_count == 0 || q_count == 0 || p_count > kMaxPoints || q_count > kMaxPoints ||
-      p_count * q_count > kMaxEvaluations)
+  const Orders orders =
+      OrderChoice(p, q, between, square, distance, p_tilt, q_tilt).choose(0.25 * relative_error);
+  if (!(orders.bound <= relative_error))
     return false;
-  const Points p_points(p, p_height, Vec3(0, 0, 0), on_p), q_points(q, q_height, between, on_q);
+  const int p_u = static_cast<int>(orders.order[0]), p_v = static_cast<int>(orders.order[1]);
+  const int q_u = static_cast<int>(orders.order[2]), q_v = static_cast<int>(orders.order[3]);
+  if (p_u * p_v * q_u * q_v > kMaxEvaluations)
+    return false;
+  const Points p_points(p, p_height, Vec3(0, 0, 0), kTensors.nodes[p_u - 1][p_v - 1]);
+  const Points q_points(q, q_height, between, kTensors.nodes[q_u - 1][q_v - 1]);
   const double mean = mean_kernel(p_points, q_points) * (1 / kPi);
   const double value = mean > 0 ? p.area * q.area * mean : 0;
-  *result = {value, value * (bound + 0x1p-48)};
+  *result = {value, value * (orders.bound + 0x1p-48)};
   return true;
 }
 

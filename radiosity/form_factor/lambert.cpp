@@ -14,16 +14,50 @@ constexpr double kFar = 50, kFarther = 400, kFarthest = 8000;
 /// Heights over the polygon's plane below this share of the distance are rounding.
 constexpr double kInPlane = 0x1p-50;
 
-/// The angle that edge a-b subtends at the origin, times the component along `normal` of the unit
-/// vector across it.
-inline double contour_term(const Vec3& normal, const Vec3& a, const Vec3& b) {
-  const Vec3 across = glm::cross(b, a);
-  const double square = glm::dot(across, across);
-  if (square == 0)
-    return 0;
-  const double length = std::sqrt(square);
-  return glm::dot(normal, across) * (arctangent2(length, glm::dot(a, b)) / length);
-}
+/// Lambert's sum, edge by edge: the angle each subtends at the origin, times the component along
+/// the receiver's normal of the unit vector across it. Edges are gathered so that the angles
+/// vectorise.
+class ContourSum {
+public:
+  explicit ContourSum(const Vec3& normal) : normal_(normal) {}
+
+  void add(const Vec3& a, const Vec3& b) {
+    const Vec3 across = glm::cross(b, a);
+    square_[count_] = glm::dot(across, across);
+    cosine_[count_] = glm::dot(a, b);
+    along_[count_] = glm::dot(normal_, across);
+    if (++count_ == kBatch)
+      flush();
+  }
+
+  double value() {
+    if (count_ % 2 != 0) { // whole lanes
+      square_[count_] = cosine_[count_] = along_[count_] = 0;
+      ++count_;
+    }
+    flush();
+    return sum_ / (2 * kPi);
+  }
+
+private:
+  static constexpr int kBatch = 8;
+
+  void flush() {
+    double term[kBatch];
+    for (int k = 0; k < count_; ++k) {
+      const double length = std::sqrt(square_[k]);
+      term[k] = along_[k] * angle_above(length, cosine_[k]) / (length > 0 ? length : 1.0);
+    }
+    for (int k = 0; k < count_; ++k)
+      sum_ += term[k];
+    count_ = 0;
+  }
+
+  Vec3 normal_;
+  double sum_ = 0;
+  int count_ = 0;
+  double square_[kBatch], cosine_[kBatch], along_[kBatch];
+};
 
 /// Where the edge from a (side sa > 0) to b (side sb < 0) meets the horizon.
 Vec3 horizon_crossing(const Vec3& a, double sa, const Vec3& b, double sb) {
@@ -33,7 +67,7 @@ Vec3 horizon_crossing(const Vec3& a, double sa, const Vec3& b, double sb) {
 /// Lambert's sum over the part of the polygon above the horizon. The horizon's own piece of the
 /// contour runs from where the polygon leaves to where it comes back.
 double contour_sum(const Vec3& eye, const Vec3& normal, std::span<const Vec3> corners) {
-  double sum = 0;
+  ContourSum sum(normal);
   bool left = false, entered = false;
   Vec3 leaves(0, 0, 0), enters(0, 0, 0);
   Vec3 a = corners.back() - eye;
@@ -42,22 +76,22 @@ double contour_sum(const Vec3& eye, const Vec3& normal, std::span<const Vec3> co
     const Vec3 b = corner - eye;
     const double sb = glm::dot(normal, b);
     if (sa >= 0 && sb >= 0) {
-      sum += contour_term(normal, a, b);
+      sum.add(a, b);
     } else if (sa >= 0) {
       leaves = horizon_crossing(a, sa, b, sb);
       left = true;
-      sum += contour_term(normal, a, leaves);
+      sum.add(a, leaves);
     } else if (sb >= 0) {
       enters = horizon_crossing(b, sb, a, sa);
       entered = true;
-      sum += contour_term(normal, enters, b);
+      sum.add(enters, b);
     }
     a = b;
     sa = sb;
   }
   if (left && entered)
-    sum += contour_term(normal, leaves, enters);
-  return sum / (2 * kPi);
+    sum.add(leaves, enters);
+  return sum.value();
 }
 
 /// The kernel's integral over a quadrilateral far away, corners relative to the eye. A triangle
