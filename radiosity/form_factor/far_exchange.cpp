@@ -70,10 +70,11 @@ public:
 
   Orders choose(double limit) const {
     Orders found;
-    double bound[4] = {0, 0, 0, 0}, power[4] = {1, 1, 1, 1}, enough[4], order[4] = {0, 0, 0, 0};
+    double bound[4] = {0, 0, 0, 0}, power[4] = {square_[0], square_[1], square_[2], square_[3]},
+           enough[4], order[4] = {1, 1, 1, 1};
     for (int k = 0; k < 4; ++k)
       enough[k] = limit * (1 - 0.25 * square_[k]);
-    for (int n = 0; n < kMaxOrder; ++n) {
+    for (int n = 1; n < kMaxOrder; ++n) { // one node would hardly ever do
       const BoundTerms terms = kBoundTerms[n];
       for (int k = 0; k < 4; ++k) {
         const double along_n = terms.most_n < steepness_[k] ? terms.most_n : steepness_[k];

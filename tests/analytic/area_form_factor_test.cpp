@@ -263,6 +263,26 @@ TEST(AreaToArea, PartsSumToTheWholeAcrossASharedEdge) {
   std::printf("across a shared edge: relative difference up to %.1e\n", worst);
 }
 
+// Catches: a cut that needs one corner more than there is room for.
+TEST(AreaToArea, FullPolygonsAreCut) {
+  const std::vector<Vec3> wall = {{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}};
+  std::vector<Vec3> disk;
+  for (int k = 0; k < ConvexPolygon::kMaxCorners; ++k) {
+    const double angle = 2 * radiosity::kPi * k / ConvexPolygon::kMaxCorners + 0.01;
+    disk.push_back(Vec3(0.3 + std::cos(angle), std::sin(angle), -0.2));
+  }
+  const AreaIntegral whole = exchange(disk, wall, 1e-9);
+  double parts = 0, error = whole.error;
+  for (const auto& half : halves(disk, 0.3)) {
+    const AreaIntegral part = exchange(wall, half, 1e-9);
+    parts += part.value;
+    error += part.error;
+  }
+  EXPECT_GT(whole.value, 0.1);
+  EXPECT_NEAR(parts, whole.value, error);
+  EXPECT_LT(error, 4e-9 * parts);
+}
+
 // Catches: formulas that need axis-parallel input, and contour terms taken for parallel that are
 // not.
 TEST(AreaToArea, TurningBothChangesNothing) {
