@@ -110,7 +110,8 @@ public:
     gap_ = std::fabs(glm::dot(offset, normal)) / square;
   }
 
-  /// Sums of the ellipses of convergence around lo..hi, rho; infinity-like if far.
+  /// The sum of the half axes, in half intervals, of the ellipse around lo..hi through the nearer
+  /// of the edge's ends, and through where the lines are nearest.
   double ends_rho(const Vec3& lo, const Vec3& hi, double length) const {
     const double first = (distance(start_, lo) + distance(start_, hi)) / length;
     const double second = (distance(end_, lo) + distance(end_, hi)) / length;

@@ -38,7 +38,7 @@ struct Height {
 /// The orders along the parameters u and v of p, then of q.
 struct Orders {
   double order[4];
-  double bound = 0; ///< of the relative error; infinite if no order is good enough
+  double bound = 0; ///< of the relative error; huge if no order is good enough
 };
 
 /// What smallest_order does, for four lines at once: as long as it is mostly loops of four, it

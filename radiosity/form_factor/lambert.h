@@ -15,7 +15,8 @@ namespace hemicube::radiosity {
 /// @param corners  counter-clockwise seen from the polygon's front; repeated corners do no harm
 /// @return dimensionless, -1 .. 1; positive where `eye` sees the polygon's front, negative where it
 /// sees the back
-/// Relative error: 1e-12 or less, and what the rounding of corners - eye leaves.
+/// Error: 1e-12 of the value and a few 1e-16 at grazing incidence, and what the rounding of
+/// corners - eye leaves.
 /// Deterministic: + - * / sqrt only. Scaling everything by a power of two changes no bit.
 /// Source: Baum, Rushmeier, Winget 1989, "Improving radiosity solutions through the use of
 /// analytically determined form-factors".
