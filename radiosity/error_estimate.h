@@ -6,7 +6,7 @@
 namespace hemicube::radiosity {
 
 /// Rows that the error of all is estimated by, or all if there are not more.
-inline constexpr std::uint32_t kErrorSampleRows = 48;
+inline constexpr std::uint32_t kErrorSampleRows = 32;
 
 /// A setting that is so much finer that its error does not count beside that of `setting`.
 RungSetting finer_setting(const RungSetting& setting) noexcept;

@@ -26,7 +26,7 @@ struct ReceiverExchange {
 /// all rows are there. In blocks of consecutive rows, one writer a block.
 class ExchangeTable {
 public:
-  static constexpr std::uint32_t kBlockRows = 32;
+  static constexpr std::uint32_t kBlockRows = 8;
 
   Status init(std::uint32_t row_count) noexcept;
   bool empty() const noexcept { return blocks_.size() == 0; }

@@ -38,7 +38,7 @@ std::uint64_t hash_row(const RowView& row) noexcept;
 /// writer.
 class FormFactorMatrix {
 public:
-  static constexpr std::uint32_t kBlockRows = 32;
+  static constexpr std::uint32_t kBlockRows = 8;
 
   /// Forgets all rows and makes room for row_count rows over column_count patches.
   Status init(std::uint64_t row_count, std::uint32_t column_count) noexcept;
