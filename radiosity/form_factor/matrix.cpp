@@ -1,25 +1,11 @@
 #include "radiosity/form_factor/matrix.h"
 
+#include "radiosity/form_factor/interleaved_sum.h"
 #include "raster/hash.h"
 
 #include <bit>
 
 namespace hemicube::radiosity {
-namespace {
-
-template <typename Term> double interleaved_sum(std::size_t first, std::size_t last, Term term) {
-  double sums[8] = {0, 0, 0, 0, 0, 0, 0, 0};
-  std::size_t k = first;
-  for (; k + 8 <= last; k += 8)
-    for (std::size_t lane = 0; lane < 8; ++lane)
-      sums[lane] += term(k + lane);
-  for (std::size_t lane = 0; k < last; ++k, ++lane)
-    sums[lane] += term(k);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-}
-
-} // namespace
-
 double row_dot(const RowView& row, const double* x, std::size_t stride, std::size_t first,
                std::size_t last) noexcept {
   const std::uint32_t* columns = row.columns.data();
@@ -84,6 +70,30 @@ RowView FormFactorMatrix::row(std::uint64_t index) const noexcept {
   return {block.columns.span().subspan(begin, end.nonzeros - begin),
           block.values.span().subspan(begin, end.nonzeros - begin), end.scale, end.space,
           end.back_side};
+}
+
+void FormFactorMatrix::swap(FormFactorMatrix& other) noexcept {
+  blocks_.swap(other.blocks_);
+  std::swap(row_count_, other.row_count_);
+  std::swap(column_count_, other.column_count_);
+}
+
+Status FormFactorMatrix::reserve_block(std::size_t index, std::size_t nonzeros) noexcept {
+  HC_TRY(blocks_[index].columns.reserve(nonzeros));
+  return blocks_[index].values.reserve(nonzeros);
+}
+
+std::span<float> FormFactorMatrix::values(std::uint64_t index) noexcept {
+  const std::span<const float> values = row(index).values;
+  return {const_cast<float*>(values.data()), values.size()};
+}
+
+void FormFactorMatrix::set_shares(std::uint64_t index, double scale, double space,
+                                  double back_side) noexcept {
+  Block& block = blocks_[index / kBlockRows];
+  const std::size_t k = index % kBlockRows;
+  HC_ASSERT(k < block.rows.size());
+  block.rows[k] = {block.rows[k].nonzeros, scale, space, back_side};
 }
 
 Status FormFactorMatrix::append_row(std::size_t index, const RowView& row) noexcept {

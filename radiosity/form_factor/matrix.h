@@ -61,6 +61,16 @@ public:
   /// Appends the next row of a block: its rows come in ascending order, from one writer at a time.
   Status append_row(std::size_t block, const RowView& row) noexcept;
 
+  /// Makes room for all entries of a block in one go.
+  Status reserve_block(std::size_t block, std::size_t nonzeros) noexcept;
+
+  /// The values of a row, to be changed in place; empty until it was appended.
+  std::span<float> values(std::uint64_t index) noexcept;
+  /// Changes what is not an entry of a row that was appended.
+  void set_shares(std::uint64_t index, double scale, double space, double back_side) noexcept;
+
+  void swap(FormFactorMatrix& other) noexcept;
+
 private:
   struct RowEnd {
     std::uint64_t nonzeros; ///< entries of the block up to and including this row
