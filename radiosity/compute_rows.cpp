@@ -1,3 +1,4 @@
+#include "radiosity/balance_rows.h"
 #include "radiosity/dial.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/row_run.h"
@@ -44,6 +45,8 @@ Status compute_rows(const PatchSet& patches, std::uint64_t count, Receivers rece
                       patches.patch_count(), [](std::uint32_t) { return true; }, take)
                 : run.build(count, place, take));
   *certificate = {};
+  if (options.balance)
+    HC_TRY(balance_rows(patches, executor, progress, matrix, &statistics, certificate));
   certificate->patches = patches.patch_count();
   certificate->setting = setting;
   if (is_all && options.estimate_error && setting.rung != Rung::kExact) {
@@ -72,6 +75,9 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
     if (row >= patches.patch_count())
       return Status::error(StatusCode::kInvalidArgument, "row ", row, " does not exist: there are ",
                            patches.patch_count(), " patches, counted from 0");
+  if (options.balance && !rows.empty())
+    return Status::error(StatusCode::kInvalidArgument, "some rows alone cannot be balanced: ",
+                         "balance needs those of all patches");
   const auto patch_of = [&](std::uint64_t k) {
     return rows.empty() ? static_cast<std::uint32_t>(k) : rows[k];
   };
@@ -92,6 +98,9 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
 Status compute_point_form_factors(const PatchSet& patches, std::span<const Receiver> points,
                                   const Options& options, Executor& executor, Progress* progress,
                                   FormFactorMatrix* matrix, Certificate* certificate) {
+  if (options.balance)
+    return Status::error(StatusCode::kInvalidArgument, "rows of points cannot be balanced: ",
+                         "points have no area to be reciprocal with");
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3 &p = points[k].position, &n = points[k].normal;
     for (const double x : {p.x, p.y, p.z, n.x, n.y, n.z})

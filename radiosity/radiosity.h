@@ -24,20 +24,31 @@ struct Options {
   double tolerance = 1e-6;     ///< on the estimated relative error of B
   std::uint64_t max_sweeps = 1000000;
   bool black_irradiance = true; ///< gather the irradiance of patches that reflect nothing
-  bool hash_items = false;      ///< hash every item buffer (slow)
+  bool balance =
+      false; ///< make the form factors reciprocal (form_factor/balance.h); takes all rows
+  bool hash_items = false;                  ///< hash every item buffer (slow)
   const raster::Kernels* kernels = nullptr; ///< instruction set; null = the best this machine has
 };
 
 /// Called from time to time, from any worker, never twice at once.
 class Progress {
 public:
-  /// Rows are built in one loop; by solve_scene in two, those of black patches after the sweeps.
+  /// Rows are built in one loop; by solve_scene without balance in two, those of black patches
+  /// after the sweeps.
   /// A loop begins and ends with a call, and there are others in between: time between two calls
   /// without a sweeps() in between was spent on rows and nothing else. The first call has
   /// done = 0, all set-up being done; the last has done = total.
   /// @param done, total  rows finished, rows in all
   /// @return false to stop the run: it then ends with kCancelled
   virtual bool rows(std::uint64_t done, std::uint64_t total) noexcept = 0;
+  /// With Options::balance, called after the last row with 0 iterations, then after each, and once
+  /// more when all is done.
+  /// @param closure_residual  how far a row is from closing, at most
+  virtual bool balancing(std::uint64_t iterations, double closure_residual) noexcept {
+    static_cast<void>(iterations);
+    static_cast<void>(closure_residual);
+    return true;
+  }
   /// Called before the first sweep, with 0, and after every few.
   /// @param error  the estimated relative error after `sweeps` sweeps
   virtual bool sweeps(std::uint64_t sweeps, double error) noexcept = 0;
@@ -62,8 +73,9 @@ struct Solution {
 /// @param scene     materials, bands and space exitance; its geometry is not read
 /// @param patches   the mesh (mesh/build_patches.h)
 /// @param progress  may be null
-/// @return kInvalidArgument (bad option), kSingular (no solution), kNotConverged (solution and
-///         certificate are filled all the same), kOutOfMemory, kCancelled
+/// @return kInvalidArgument (bad option), kBadScene (balance would change the form factors too
+///         much; the certificate's `balance` is filled), kSingular (no solution), kNotConverged
+///         (solution and certificate are filled all the same), kOutOfMemory, kCancelled
 /// Deterministic: the same bits for any executor and any kernels.
 Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& options,
                    Executor& executor, Progress* progress, Solution* solution,
@@ -71,6 +83,8 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
 
 /// Computes rows of form factors: of the listed patches, or of all if `rows` is empty.
 /// @param matrix  row k belongs to patch rows[k]
+/// @return kInvalidArgument (bad option, no such row, balance with a selection of rows), kBadScene
+///         (as solve_scene), kOutOfMemory, kCancelled
 Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32_t> rows,
                             const Options& options, Executor& executor, Progress* progress,
                             FormFactorMatrix* matrix, Certificate* certificate);
@@ -83,6 +97,7 @@ struct Receiver {
 
 /// Computes one row per point: the fraction of the light leaving a small receiver there that
 /// arrives at each patch. Nothing is skipped but polygons edge-on to the receiver.
+/// Options::balance is refused: points have no area to be reciprocal with.
 Status compute_point_form_factors(const PatchSet& patches, std::span<const Receiver> points,
                                   const Options& options, Executor& executor, Progress* progress,
                                   FormFactorMatrix* matrix, Certificate* certificate);

@@ -34,6 +34,10 @@ void RowStatistics::record(std::uint64_t index, const RowView& row, const RowFac
   rows_[index] = {row_sum(row), row.space, row.back_side, hash_row(row), facts, row.columns.size()};
 }
 
+void RowStatistics::replace(std::uint64_t index, const RowView& row) {
+  record(index, row, RowFacts(rows_[index].facts));
+}
+
 void RowStatistics::summarise(Certificate* certificate) const {
   Hash rows_hash, items_hash;
   Certificate& c = *certificate;

@@ -13,6 +13,9 @@ public:
 
   void record(std::uint64_t index, const RowView& row, const RowFacts& facts);
 
+  /// A row that was recorded and is now another.
+  void replace(std::uint64_t index, const RowView& row);
+
   /// NaN where no row was built.
   double sum(std::uint64_t index) const { return rows_[index].sum; }
   double space(std::uint64_t index) const { return rows_[index].space; }

@@ -1,3 +1,4 @@
+#include "radiosity/balance_rows.h"
 #include "radiosity/dial.h"
 #include "radiosity/light_model.h"
 #include "radiosity/radiosity.h"
@@ -36,7 +37,7 @@ public:
 
   Status prepare();
   Status choose_setting();
-  Status build_matrix();
+  Status build_matrix(Certificate* certificate);
   Status solve(Certificate* certificate);
   /// @param is_enough  false if a finer setting was chosen: matrix and light are to be made again
   Status estimate_error(Certificate* certificate, bool* is_enough);
@@ -75,22 +76,26 @@ Status SceneSolver::choose_setting() {
   return dial_.choose(&setting_);
 }
 
-Status SceneSolver::build_matrix() {
+Status SceneSolver::build_matrix(Certificate* certificate) {
   const std::uint32_t count = patches_.patch_count();
   std::uint64_t rows = count;
-  if (!options_.black_irradiance)
+  if (!options_.black_irradiance && !options_.balance)
     for (std::uint32_t i = 0; i < count; ++i)
       rows -= problem_.is_black(i) ? 1 : 0;
   HC_TRY(run_.init(&geometry_, setting_, options_, rows, executor_, progress_));
   HC_TRY(statistics_.init(count, options_.hash_items));
   HC_TRY(matrix_.init(count, count));
-  return run_.build_all(
-      patches_.patch_count(), [&](std::uint32_t i) { return !problem_.is_black(i); },
+  HC_TRY(run_.build_all(
+      patches_.patch_count(),
+      [&](std::uint32_t i) { return options_.balance || !problem_.is_black(i); },
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
         return matrix_.append_row(i / FormFactorMatrix::kBlockRows, row);
-      });
+      }));
+  return options_.balance
+             ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
+             : Status();
 }
 
 Status SceneSolver::solve(Certificate* certificate) {
@@ -137,17 +142,26 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
 
 Status SceneSolver::gather_black_irradiance() {
   const std::uint32_t bands = light_.band_count;
+  const auto gather = [&](std::uint64_t i, const RowView& row, bool is_wanted) {
+    for (std::uint32_t b = 0; b < bands && problem_.is_black(i); ++b)
+      irradiance_[i * bands + b] = is_wanted ? row_dot(row, radiosity_.data() + b, bands) +
+                                                   row.space * problem_.space_exitance[b]
+                                             : kNotComputed;
+  };
+  if (options_.balance) // all rows are there
+    return executor_.for_each(matrix_.block_count(), [&](std::size_t block, std::size_t) {
+      const FloatEnvironment environment;
+      for (std::uint64_t i = matrix_.block_begin(block); i < matrix_.block_end(block); ++i)
+        gather(i, matrix_.row(i), options_.black_irradiance);
+      return Status();
+    });
   return run_.build_all(
       patches_.patch_count(),
       [&](std::uint32_t i) { return options_.black_irradiance && problem_.is_black(i); },
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
-        for (std::uint32_t b = 0; b < bands && problem_.is_black(i); ++b)
-          irradiance_[i * bands + b] = facts == nullptr
-                                           ? kNotComputed
-                                           : row_dot(row, radiosity_.data() + b, bands) +
-                                                 row.space * problem_.space_exitance[b];
+        gather(i, row, facts != nullptr);
         return Status();
       });
 }
@@ -180,8 +194,9 @@ Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
   statistics_.summarise(certificate);
   certificate->scene_hash = hash_scene(scene_, patches_);
   certificate->radiosity_hash = radiosity_hash.value();
-  if (certificate->rows < count)
-    return {}; // without the irradiance of black patches there is no balance
+  for (const double irradiance : irradiance_)
+    if (irradiance != irradiance)
+      return {}; // without the irradiance of black patches there is no balance
   HC_TRY(certificate->energy.resize(bands));
   balance_energy(s, certificate);
   return {};
@@ -217,7 +232,7 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
   HC_TRY(solver.choose_setting());
   Status solved;
   for (bool is_enough = false; !is_enough;) {
-    HC_TRY(solver.build_matrix());
+    HC_TRY(solver.build_matrix(certificate));
     solved = solver.solve(certificate);
     if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
       return solved;

@@ -131,6 +131,9 @@ private:
     common.push_back(add_value(
         &app_, "--tolerance", "X", "relative error of the radiosity the solver may leave [1e-6]",
         [&](const std::string& text) { options.tolerance = parse_real_number(text, 0, 1); }));
+    common.push_back(
+        app_.add_flag("--balance", options.balance,
+                      "make the form factors reciprocal (solve, render, formfactors)"));
     common.push_back(add_value(
         &app_, "--max-edge", "M", "longest edge of a patch, metres [as the scene says]",
         [&](const std::string& text) { line_.max_edge = parse_real_number(text, 0, kInfinity); }));

@@ -55,6 +55,18 @@ bool ProgressReport::rows(std::uint64_t done, std::uint64_t total) noexcept {
   return !interrupted();
 }
 
+bool ProgressReport::balancing(std::uint64_t iterations, double closure_residual) noexcept {
+  part_ = kBalance;
+  count_time();
+  if (!interrupted() && is_time_to_show()) {
+    char text[160];
+    std::snprintf(text, sizeof text, "balancing, iteration %llu, rows close to %.2g",
+                  static_cast<unsigned long long>(iterations), closure_residual);
+    show(text);
+  }
+  return !interrupted();
+}
+
 bool ProgressReport::sweeps(std::uint64_t sweeps, double error) noexcept {
   // Between the last row and the first sweep the solver gets ready.
   part_ = kSolve;

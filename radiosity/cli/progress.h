@@ -10,8 +10,9 @@ namespace hemicube::radiosity::cli {
 /// seconds. It stops the run once the program was interrupted, and takes the time of its parts.
 class ProgressReport final : public Progress {
 public:
-  /// What a run does: all that comes before the first row; rows; and what leads from rows to light.
-  enum Part { kBuild, kRows, kSolve };
+  /// What a run does: all that comes before the first row; rows; their balance; and what leads from
+  /// rows to light.
+  enum Part { kBuild, kRows, kBalance, kSolve };
 
   explicit ProgressReport(bool quiet);
   ProgressReport(const ProgressReport&) = delete;
@@ -19,6 +20,7 @@ public:
   ~ProgressReport() { finish(); }
 
   bool rows(std::uint64_t done, std::uint64_t total) noexcept override;
+  bool balancing(std::uint64_t iterations, double closure_residual) noexcept override;
   bool sweeps(std::uint64_t sweeps, double error) noexcept override;
 
   /// Removes the bar. Call it before anything else is printed.
@@ -40,7 +42,7 @@ private:
   Clock::time_point last_call_, last_shown_;
   bool bar_is_shown_ = false;
   Part part_ = kBuild; ///< what the time since the last call is spent on
-  Seconds time_[3] = {};
+  Seconds time_[4] = {};
 };
 
 } // namespace hemicube::radiosity::cli

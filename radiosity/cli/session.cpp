@@ -39,6 +39,7 @@ template <typename Work> Status Session::compute(Work work) {
   progress.finish();
   run.build_seconds = progress.seconds(ProgressReport::kBuild);
   run.form_factor_seconds = progress.seconds(ProgressReport::kRows);
+  run.balance_seconds = progress.seconds(ProgressReport::kBalance);
   run.solve_seconds = progress.seconds(ProgressReport::kSolve);
   return status;
 }
@@ -48,7 +49,7 @@ Status Session::solve(Solution* solution, Certificate* certificate) {
     return solve_scene(loaded.scene, loaded.patches, line.options, pool_, progress, solution,
                        certificate);
   });
-  if (status.code() == StatusCode::kSingular)
+  if (status.code() == StatusCode::kSingular || status.code() == StatusCode::kBadScene)
     return Status::error(status.code(), scene_path_, ": ", status.message());
   return status;
 }
@@ -60,6 +61,8 @@ Status Session::form_factors(std::span<const std::uint32_t> rows, FormFactorMatr
                                 certificate);
   });
   certificate->scene_hash = hash_scene(loaded.scene, loaded.patches);
+  if (status.code() == StatusCode::kBadScene)
+    return Status::error(status.code(), scene_path_, ": ", status.message());
   return status;
 }
 
@@ -122,6 +125,8 @@ std::string losses_text(const Certificate& certificate) {
   };
   add("space", certificate.space);
   add("back side", certificate.back_side);
+  if (certificate.balanced)
+    text += concat("; balanced by an RMS change of ", rounded(certificate.balance.rms_change));
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/form_factor/balance.h"
 #include "radiosity/form_factor/reciprocity.h"
 #include "radiosity/form_factor/rung.h"
 #include "raster/memory.h"
@@ -49,6 +50,9 @@ struct Certificate {
 
   bool has_reciprocity = false; ///< all patches have a row, or those that reflect
   Reciprocity reciprocity;
+  bool balanced = false; ///< the two fields below are filled, and the form factors are changed
+  Reciprocity reciprocity_raw; ///< before
+  BalanceReport balance;
 
   bool solved = false; ///< the fields below are filled
   double residual = 0; ///< max|E + rho H - B| / max|B|
@@ -71,6 +75,7 @@ struct RunReport {
   double read_seconds = 0, mesh_seconds = 0;
   double build_seconds = 0;       ///< from the mesh to the first row: what all rows share
   double form_factor_seconds = 0; ///< of rows alone
+  double balance_seconds = 0;     ///< reciprocity before included
   double solve_seconds = 0, write_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
 };

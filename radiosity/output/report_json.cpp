@@ -84,6 +84,22 @@ Json hashes_json(const Certificate& certificate) {
   return json;
 }
 
+Json reciprocity_json(const Reciprocity& reciprocity) {
+  Json json = Json::object();
+  set(&json, "max", reciprocity.max);
+  set(&json, "rms", reciprocity.rms);
+  return json;
+}
+
+Json balance_json(const BalanceReport& balance) {
+  Json json = Json::object();
+  json["iterations"] = balance.iterations;
+  set(&json, "max_change", balance.max_change);
+  set(&json, "rms_change", balance.rms_change);
+  set(&json, "closure_residual", balance.closure_residual);
+  return json;
+}
+
 Json options_json(const ReportParts& parts) {
   const Options& options = parts.options;
   Json json = Json::object();
@@ -95,6 +111,7 @@ Json options_json(const ReportParts& parts) {
     set(&json, "target", setting.target);
   if (options.choose_rung || options.choose_resolution)
     set(&json, "error", options.error);
+  json["balance"] = options.balance;
   if (parts.max_edge != 0)
     json["max_edge"] = parts.max_edge;
   if (parts.certificate.solved) {
@@ -124,11 +141,12 @@ Json result_json(const ReportParts& parts) {
     if (certificate.has_radiosity_error)
       set(&error, "radiosity", certificate.radiosity_error);
   }
-  if (certificate.has_reciprocity) {
-    Json& reciprocity = json["reciprocity"] = Json::object();
-    set(&reciprocity, "max", certificate.reciprocity.max);
-    set(&reciprocity, "rms", certificate.reciprocity.rms);
-  }
+  if (certificate.balanced)
+    json["reciprocity_raw"] = reciprocity_json(certificate.reciprocity_raw);
+  if (certificate.has_reciprocity)
+    json["reciprocity"] = reciprocity_json(certificate.reciprocity);
+  if (certificate.balanced)
+    json["balance"] = balance_json(certificate.balance);
   if (certificate.solved) {
     set(&json, "residual", certificate.residual);
     set(&json, "estimated_error", certificate.estimated_error);
@@ -161,6 +179,8 @@ Json run_json(const ReportParts& parts) {
   set(&seconds, "mesh", run.mesh_seconds);
   set(&seconds, "build", run.build_seconds);
   set(&seconds, "form_factors", run.form_factor_seconds);
+  if (parts.certificate.balanced)
+    set(&seconds, "balance", run.balance_seconds);
   if (parts.certificate.solved)
     set(&seconds, "solve", run.solve_seconds);
   set(&seconds, "write", run.write_seconds);

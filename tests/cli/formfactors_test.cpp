@@ -62,6 +62,18 @@ TEST_F(FormFactorsTest, WritesTheMatrixAndItsRows) {
   EXPECT_EQ(lines_of(result.out).size(), 2u) << result.out;
 }
 
+// Catches: an option that is read and not passed on, or passed on where it means nothing.
+TEST_F(FormFactorsTest, BalanceIsForWholeMatrices) {
+  const std::string scene = write_room(), points_file = points("0.5,0.5,0.5,0,0,1\n");
+  const Json report = Json::parse(run(0, {"formfactors", scene, "--balance", "--json"}).out);
+  EXPECT_LE(report["result"]["reciprocity"]["max"], 1e-6);
+  EXPECT_TRUE(report["result"].contains("reciprocity_raw"));
+  EXPECT_TRUE(report["result"].contains("balance"));
+  EXPECT_TRUE(report["run"]["seconds"].contains("balance"));
+  expect_refused(2, {"formfactors", scene, "--balance", "--rows", "1,4"}, {"all patches"});
+  expect_refused(2, {"formfactors", scene, "--balance", "--points", points_file}, {"points"});
+}
+
 TEST_F(FormFactorsTest, TheReportCountsTheRows) {
   const Json report =
       Json::parse(run(0, {"formfactors", write_room(), "--rows", "1,4", "--json"}).out);

@@ -27,7 +27,7 @@ TEST_F(UsageTest, HelpOfACommandShowsItsOwnAndTheCommonOptions) {
     const ProgramResult result = run(0, {command, "--help"});
     EXPECT_NE(result.out.find("hemicube " + command), std::string::npos) << result.out;
     for (const std::string& expected :
-         {option, std::string("--resolution"), std::string("--tolerance"),
+         {option, std::string("--resolution"), std::string("--tolerance"), std::string("--balance"),
           std::string("--max-edge"), std::string("--threads"), std::string("--isa"),
           std::string("--json"), std::string("--quiet"), std::string("--hash-items")})
       EXPECT_NE(result.out.find(expected), std::string::npos) << command << " " << expected;
@@ -58,7 +58,7 @@ TEST_F(UsageTest, UnknownCommandsAndOptionsAreNamed) {
 
 TEST_F(UsageTest, CommandsOfOtherVersionsAreNotOffered) {
   const std::string scene = write_room();
-  for (const std::string option : {"--rung", "--error", "--balance", "--solver", "--adaptive"})
+  for (const std::string option : {"--rung", "--error", "--solver", "--adaptive"})
     expect_refused(2, {"solve", scene, option}, {option});
   expect_refused(2, {"verify"}, {"'verify'"});
 }

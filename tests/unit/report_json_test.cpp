@@ -72,9 +72,30 @@ TEST_F(ReportTest, WhatIsNotKnownIsAbsent) {
   EXPECT_FALSE(whole["run"]["seconds"].contains("solve"));
 }
 
+// Catches: figures of a balance that was not asked for, or none of one that was.
+TEST_F(ReportTest, ABalanceIsReportedWhereThereWasOne) {
+  const Json without = report();
+  EXPECT_EQ(without["result"]["options"]["balance"], false);
+  for (const char* key : {"balance", "reciprocity_raw"})
+    EXPECT_FALSE(without["result"].contains(key)) << key;
+  EXPECT_FALSE(without["run"]["seconds"].contains("balance"));
+  options.balance = certificate.balanced = certificate.has_reciprocity = true;
+  certificate.balance = {17, 0.25, 0.5, 1e-9};
+  certificate.reciprocity_raw = {0.5, 0.125};
+  run.balance_seconds = 3;
+  const Json with = report();
+  EXPECT_EQ(with["result"]["options"]["balance"], true);
+  EXPECT_EQ(with["result"]["balance"], (Json{{"iterations", 17},
+                                             {"max_change", 0.25},
+                                             {"rms_change", 0.5},
+                                             {"closure_residual", 1e-9}}));
+  EXPECT_EQ(with["result"]["reciprocity_raw"], (Json{{"max", 0.5}, {"rms", 0.125}}));
+  EXPECT_EQ(with["run"]["seconds"]["balance"], 3.0);
+}
+
 TEST_F(ReportTest, ResultDoesNotDependOnTheRun) {
   const Json before = report();
-  run = {"scalar", 7, 1, 2, 3, 4, 5, 6, 1000};
+  run = {"scalar", 7, 1, 2, 3, 4, 9, 5, 6, 1000};
   const Json after = report();
   EXPECT_EQ(before["result"].dump(), after["result"].dump());
   EXPECT_NE(before["run"], after["run"]);
