@@ -50,16 +50,12 @@ Status compute_rows(const PatchSet& patches, std::uint64_t count, Receivers rece
   certificate->patches = patches.patch_count();
   certificate->setting = setting;
   if (is_all && options.estimate_error && setting.rung != Rung::kExact) {
-    const RowSample* sample = dial.sample_for(setting);
-    RowSample own;
-    if (sample == nullptr) {
-      HC_TRY(own.choose(patches.patch_count(), kErrorSampleRows));
-      HC_TRY(compute_exact_rows(&geometry, finer_setting(setting), options, executor, &own));
-      sample = &own;
-    }
+    RowSample sample;
+    HC_TRY(sample.choose(patches.patch_count(), kErrorSampleRows));
+    HC_TRY(compute_exact_rows(&geometry, finer_setting(setting), options, executor, &sample));
     certificate->form_factor_error =
-        sample->form_factor_error([&](std::size_t k) { return matrix->row(sample->patches()[k]); },
-                                  [](std::size_t) { return true; });
+        sample.form_factor_error([&](std::size_t k) { return matrix->row(sample.patches()[k]); },
+                                 [](std::size_t) { return true; });
     certificate->has_form_factor_error = true;
   }
   statistics.summarise(certificate);

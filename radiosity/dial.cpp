@@ -5,12 +5,13 @@
 namespace hemicube::radiosity {
 namespace {
 
+constexpr std::uint32_t kDialRows = 16;
+
 /// A prediction from few rows and guessed light may be too low by this.
 constexpr double kMargin = 2;
 
-/// Above this, settings are tried in turn; below, the cheapest of all that do is taken.
-constexpr double kFirstTargets[] = {0.5};
-constexpr double kFinerTargets[] = {0.1, 0.03, 0.01, 0.003, 0.001};
+/// Of rung adaptive; the first looks at each partly visible pair once.
+constexpr double kTargets[] = {0.5, 0.1, 0.03, 0.01, 0.003, 0.001};
 constexpr std::uint32_t kResolutions[] = {64, 128, 256, 512};
 
 /// The exact rows are this many times more exact than what is wanted, as far as rung adaptive goes:
@@ -48,9 +49,7 @@ void Dial::list_candidates(const RungSetting& wish) {
     return;
   }
   add_resolutions(Rung::kHemicube);
-  for (const double target : kFirstTargets)
-    add(Rung::kAdaptive, wish.resolution, target);
-  for (const double target : kFinerTargets)
+  for (const double target : kTargets)
     add(Rung::kAdaptive, wish.resolution, target);
 }
 
@@ -107,27 +106,15 @@ Status Dial::judge(Candidate* candidate) {
   const auto patches = sample_.patches();
   HC_TRY(run.init(geometry_, candidate->setting, quiet, patches.size(), executor_, nullptr));
   HC_TRY(rows.init(patches.size(), geometry_->patches().patch_count()));
-  Buffer<std::uint64_t> work;
-  HC_TRY(work.resize(patches.size()));
   HC_TRY(run.build(
       patches.size(),
       [&](std::uint64_t k, RowPlace* place) {
         place->patch = patches[k];
         return true;
       },
-      [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
-        work[k] = facts->work;
+      [&](std::uint64_t k, const RowView& row, const RowFacts*) {
         return rows.append_row(k / FormFactorMatrix::kBlockRows, row);
       }));
-  double all_work = 0;
-  for (const std::uint64_t of_row : work)
-    all_work += static_cast<double>(of_row);
-  const double row_count = static_cast<double>(patches.size());
-  const double seen = static_cast<double>(sample_.exact.nonzero_count()) / row_count;
-  // Pairs that are found once for both rows cost half of what they cost here.
-  candidate->cost = candidate->setting.rung == Rung::kAdaptive
-                        ? all_work / row_count / 2
-                        : hemicube_cost(candidate->setting.resolution, seen) + all_work / row_count;
   candidate->error = problem_ != nullptr
                          ? light_error(rows)
                          : sample_.form_factor_error([&](std::size_t k) { return rows.row(k); },
@@ -142,50 +129,70 @@ Status Dial::choose(RungSetting* setting) {
     *setting = candidates_[0].setting;
     return {};
   }
-  HC_TRY(sample_.choose(geometry_->patches().patch_count(), kErrorSampleRows));
-  sample_target_ = exact_target(options_.error);
-  HC_TRY(compute_exact_rows(geometry_, {Rung::kAdaptive, setting->resolution, sample_target_},
-                            options_, executor_, &sample_));
+  HC_TRY(sample_.choose(geometry_->patches().patch_count(), kDialRows));
+  std::uint64_t work = 0;
+  HC_TRY(compute_exact_rows(geometry_,
+                            {Rung::kAdaptive, setting->resolution, exact_target(options_.error)},
+                            options_, executor_, &sample_, &work));
+  const double rows = static_cast<double>(sample_.patches().size());
+  order_by_cost(static_cast<double>(work) / rows,
+                static_cast<double>(sample_.exact.nonzero_count()) / rows);
   if (problem_ != nullptr)
     HC_TRY(guess_light());
-  bool is_finer = false;
-  return choose_finer(0, setting, &is_finer);
+  HC_TRY(find_cheapest(options_.error / kMargin, &chosen_));
+  *setting = candidates_[chosen_].setting;
+  return {};
 }
 
-const RowSample* Dial::sample_for(const RungSetting& setting) const noexcept {
-  const bool is_finer = sample_target_ > 0 &&
-                        (setting.rung != Rung::kAdaptive || setting.target > 4 * sample_target_);
-  return is_finer ? &sample_ : nullptr;
+/// The first candidate, by cost, whose predicted error is below a bound; else the most exact one.
+Status Dial::find_cheapest(double bound, std::size_t* found) {
+  std::size_t most_exact = candidate_count_;
+  const Candidate* coarser = nullptr; // the same rung with fewer pixels
+  for (std::size_t k = 0; k < candidate_count_; ++k) {
+    Candidate& candidate = candidates_[k];
+    const bool by_pixels = candidate.setting.rung <= Rung::kArea;
+    // More pixels help as long as pixels are what is wrong.
+    if (by_pixels && coarser != nullptr && coarser->error > 4 * bound)
+      continue;
+    HC_TRY(judge(&candidate));
+    if (by_pixels)
+      coarser = &candidate;
+    if (most_exact == candidate_count_ || candidate.error < candidates_[most_exact].error)
+      most_exact = k;
+    if (candidate.error <= bound) {
+      *found = k;
+      return {};
+    }
+  }
+  *found = most_exact;
+  return {};
+}
+
+/// What a row costs, guessed from the exact ones; cheapest first.
+void Dial::order_by_cost(double exact_work, double seen) {
+  for (std::size_t k = 0; k < candidate_count_; ++k) {
+    Candidate& candidate = candidates_[k];
+    // Pairs that are found once for both rows cost half; finer targets cost more and more.
+    candidate.cost = candidate.setting.rung == Rung::kAdaptive
+                         ? exact_work / 2 * (1 + 0.01 / candidate.setting.target)
+                         : hemicube_cost(candidate.setting.resolution, seen) +
+                               (candidate.setting.rung == Rung::kHemicube ? 0 : exact_work);
+    for (std::size_t m = k; m > 0 && candidates_[m].cost < candidates_[m - 1].cost; --m)
+      std::swap(candidates_[m], candidates_[m - 1]);
+  }
 }
 
 Status Dial::choose_finer(double found, RungSetting* setting, bool* is_finer) {
   *is_finer = false;
   if (candidate_count_ <= 1)
     return {};
-  double below = options_.error;
-  if (found > 0) {
-    Candidate& last = candidates_[chosen_];
-    factor_ = last.error > 0 && found > last.error ? found / last.error : factor_;
-    below =
-        options_.error < last.error * factor_ / 1.5 ? options_.error : last.error * factor_ / 1.5;
-  }
-  std::size_t best = candidate_count_, most_exact = 0;
-  for (std::size_t k = 0; k < candidate_count_; ++k) {
-    Candidate& candidate = candidates_[k];
-    const bool is_fine_adaptive =
-        candidate.setting.rung == Rung::kAdaptive && candidate.setting.target < kFirstTargets[0];
-    if (is_fine_adaptive && best != candidate_count_)
-      break; // dearer than what does already
-    HC_TRY(judge(&candidate));
-    if (candidate.error < candidates_[most_exact].error)
-      most_exact = k;
-    if (candidate.error * kMargin * factor_ <= below &&
-        (best == candidate_count_ || candidate.cost < candidates_[best].cost))
-      best = k;
-  }
-  const std::size_t next = best != candidate_count_ ? best : most_exact;
-  *is_finer = found == 0 || next != chosen_;
-  chosen_ = next;
+  const Candidate& last = candidates_[chosen_];
+  const double factor = last.error > 0 ? found / last.error : 1;
+  std::size_t next = 0;
+  HC_TRY(find_cheapest(options_.error / (factor > kMargin ? factor : kMargin), &next));
+  *is_finer = candidates_[next].error < last.error;
+  if (*is_finer)
+    chosen_ = next;
   *setting = candidates_[chosen_].setting;
   return {};
 }

@@ -20,20 +20,19 @@ public:
   /// @return false if there is nothing finer to choose
   Status choose_finer(double found, RungSetting* setting, bool* is_finer);
 
-  /// The exact rows, if there are any and they can tell how exact a setting is; else null.
-  const RowSample* sample_for(const RungSetting& setting) const noexcept;
-
 private:
   struct Candidate {
     RungSetting setting;
     double error = 0; ///< predicted
-    double cost = 0;  ///< of a row, about nanoseconds
+    double cost = 0;  ///< of a row, about nanoseconds, guessed
     bool is_judged = false;
   };
   static constexpr std::size_t kMostCandidates = 16;
 
   void list_candidates(const RungSetting& wish);
   Status judge(Candidate* candidate);
+  void order_by_cost(double exact_work, double seen);
+  Status find_cheapest(double bound, std::size_t* found);
   Status guess_light();
   double light_error(const FormFactorMatrix& rows) const;
 
@@ -42,11 +41,9 @@ private:
   const Options& options_;
   Executor& executor_;
   RowSample sample_;
-  double sample_target_ = 0; ///< that its rows were computed with; 0: there are none
-  Buffer<double> light_;     ///< [patch][band] a guess of B
+  Buffer<double> light_; ///< [patch][band] a guess of B
   Candidate candidates_[kMostCandidates];
   std::size_t candidate_count_ = 0, chosen_ = 0;
-  double factor_ = 1; ///< real errors over predicted ones
 };
 
 } // namespace hemicube::radiosity

@@ -1,8 +1,8 @@
 #include "radiosity/error_estimate.h"
 
 #include "radiosity/solve/gauss_seidel.h"
+#include "raster/hash.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -11,7 +11,72 @@ namespace {
 /// An error need not be known to more than two digits.
 constexpr SolverOptions kRoughly = {0.01, 200};
 
+/// One of 1 and -1, the same everywhere for the same patch.
+double sign_of(std::uint64_t patch) {
+  Hash hash(patch);
+  return (hash.value() >> 32 & 1) != 0 ? 1 : -1;
+}
+
+/// What the rows of all patches gather too much, as far as those of the sample tell. Relative to
+/// what a patch reflects, errors of patches have a common mean, which all get, and differ from it
+/// independently: the others get the difference of the nearest sampled patch, half of them with the
+/// other sign.
+/// @param defects  out, [patch][band]
+Status spread_defects(const RowSample& sample, const FormFactorMatrix& matrix,
+                      const LightProblem& problem, std::span<const double> radiosity,
+                      std::span<double> defects) {
+  const std::uint32_t bands = problem.band_count;
+  const std::size_t count = problem.patch_count();
+  const auto patches = sample.patches();
+  const auto reflected = [&](std::size_t at) {
+    const double value = radiosity[at] - problem.exitance[at];
+    return value > 0 ? value : 0;
+  };
+  Buffer<double> products, squares, relative;
+  HC_TRY(products.resize(bands));
+  HC_TRY(squares.resize(bands));
+  HC_TRY(relative.resize(patches.size() * bands));
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    double* of_row = &relative[k * bands];
+    sample.defect(k, matrix.row(patches[k]), problem, radiosity, of_row);
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      const double base = reflected(std::size_t{patches[k]} * bands + b);
+      const double weight = sample.stands_for(k) * problem.area[patches[k]];
+      products[b] += weight * base * of_row[b];
+      squares[b] += weight * base * base;
+      of_row[b] = base > 0 ? of_row[b] / base : 0;
+    }
+  }
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    while (nearest + 1 < patches.size() && i - patches[nearest] > patches[nearest + 1] - i &&
+           i > patches[nearest])
+      ++nearest;
+    const double sign = patches[nearest] == i ? 1 : sign_of(i);
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      const double mean = squares[b] > 0 ? products[b] / squares[b] : 0;
+      const double apart = relative[nearest * bands + b] - mean;
+      defects[i * bands + b] = reflected(i * bands + b) * (mean + sign * apart);
+    }
+  }
+  return {};
+}
+
 } // namespace
+
+Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
+                     RowSample* sample) {
+  const std::uint32_t bands = problem.band_count;
+  Buffer<double> weights;
+  HC_TRY(weights.resize(problem.patch_count()));
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      const double reflected = radiosity[i * bands + b] - problem.exitance[i * bands + b];
+      weights[i] += problem.area[i] * reflected * reflected;
+    }
+  return sample->choose(static_cast<std::uint32_t>(problem.patch_count()), kErrorSampleRows,
+                        weights.span());
+}
 
 RungSetting finer_setting(const RungSetting& setting) noexcept {
   RungSetting finer = setting;
@@ -21,21 +86,28 @@ RungSetting finer_setting(const RungSetting& setting) noexcept {
 }
 
 Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-                          Executor& executor, RowSample* sample) {
+                          Executor& executor, RowSample* sample, std::uint64_t* work) {
   Options quiet = options;
   quiet.hash_items = false;
   RowRun run;
   const auto patches = sample->patches();
   HC_TRY(run.init(geometry, setting, quiet, patches.size(), executor, nullptr));
-  return run.build(
+  Buffer<std::uint64_t> work_of_row;
+  HC_TRY(work_of_row.resize(patches.size()));
+  HC_TRY(run.build(
       patches.size(),
       [&](std::uint64_t k, RowPlace* place) {
         place->patch = patches[k];
         return true;
       },
-      [&](std::uint64_t k, const RowView& row, const RowFacts*) {
+      [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
+        work_of_row[k] = facts->work;
         return sample->exact.append_row(k / FormFactorMatrix::kBlockRows, row);
-      });
+      }));
+  if (work != nullptr)
+    for (const std::uint64_t of_row : work_of_row)
+      *work += of_row;
+  return {};
 }
 
 Status estimate_radiosity_error(const RowSample& sample, const FormFactorMatrix& matrix,
@@ -45,21 +117,7 @@ Status estimate_radiosity_error(const RowSample& sample, const FormFactorMatrix&
   const std::size_t count = problem.patch_count();
   Buffer<double> defects, made, gathered;
   HC_TRY(defects.resize(count * bands));
-  const auto patches = sample.patches();
-  std::size_t first = 0; // of the patches that the sampled one stands for
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    const std::size_t end =
-        k + 1 == patches.size() ? count : (std::size_t{patches[k]} + patches[k + 1] + 1) / 2;
-    double* own = &defects[std::size_t{patches[k]} * bands];
-    sample.defect(k, matrix.row(patches[k]), problem, radiosity, own);
-    for (std::size_t i = first; i < end; ++i)
-      std::copy_n(own, bands, &defects[i * bands]);
-    first = end;
-  }
-  // A patch that reflects nothing has no error, whatever it stands beside.
-  for (std::size_t k = 0; k < defects.size(); ++k)
-    if (problem.reflectance[k] == 0)
-      defects[k] = 0;
+  HC_TRY(spread_defects(sample, matrix, problem, radiosity, defects.span()));
   Buffer<double> dark;
   HC_TRY(dark.resize(bands));
   LightProblem wrong = problem;

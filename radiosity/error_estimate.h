@@ -8,12 +8,17 @@ namespace hemicube::radiosity {
 /// Rows that the error of all is estimated by, or all if there are not more.
 inline constexpr std::uint32_t kErrorSampleRows = 32;
 
+/// Chooses a sample for estimate_radiosity_error: by the light that patches reflect.
+Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
+                     RowSample* sample);
+
 /// A setting that is so much finer that its error does not count beside that of `setting`.
 RungSetting finer_setting(const RungSetting& setting) noexcept;
 
 /// Fills a sample's exact rows.
+/// @param work  RowFacts::work of all of them is added; may be null
 Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-                          Executor& executor, RowSample* sample);
+                          Executor& executor, RowSample* sample, std::uint64_t* work = nullptr);
 
 /// The relative RMS error of B over all bands, area-weighted, that follows from what the sampled
 /// rows gather too much: every other patch is given that of the nearest sampled one by number, and

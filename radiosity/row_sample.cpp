@@ -8,14 +8,33 @@ double RowSample::root(double x) noexcept {
   return std::sqrt(x);
 }
 
-Status RowSample::choose(std::uint32_t patch_count, std::uint32_t count) noexcept {
+Status RowSample::choose(std::uint32_t patch_count, std::uint32_t count,
+                         std::span<const double> weights) noexcept {
   patches_.clear();
-  if (count > patch_count)
-    count = patch_count;
-  for (std::uint64_t k = 0; k < count; ++k)
-    HC_TRY(patches_.push_back(
-        static_cast<std::uint32_t>((2 * k + 1) * patch_count / (2 * std::uint64_t{count}))));
-  return exact.init(count, patch_count);
+  stands_for_.clear();
+  double all = 0;
+  for (const double weight : weights)
+    all += weight;
+  const auto share_of = [&](std::uint32_t i) {
+    const double even = 1.0 / patch_count;
+    return all > 0 ? 0.5 * even + 0.5 * weights[i] / all : even;
+  };
+  // Systematic sampling: a patch is taken wherever the running sum of shares passes a mark.
+  double sum = 0;
+  std::uint32_t passed = 0;
+  for (std::uint32_t i = 0; i < patch_count; ++i) {
+    const double share = share_of(i);
+    sum += share;
+    const double marks = sum * count + 0.5;
+    const std::uint32_t now = count >= patch_count ? passed + 1 : static_cast<std::uint32_t>(marks);
+    if (now <= passed)
+      continue;
+    passed = now;
+    const double chance = share * count;
+    HC_TRY(patches_.push_back(i));
+    HC_TRY(stands_for_.push_back(count >= patch_count || chance > 1 ? 1 : 1 / chance));
+  }
+  return exact.init(patches_.size(), patch_count);
 }
 
 void RowSample::defect(std::size_t k, const RowView& row, const LightProblem& problem,

@@ -8,15 +8,22 @@ namespace hemicube::radiosity {
 /// Some rows of a matrix computed much more exactly: what the error of all rows is judged by.
 class RowSample {
 public:
-  /// Chooses `count` patches spread evenly over all by number, or all if there are not more.
-  Status choose(std::uint32_t patch_count, std::uint32_t count) noexcept;
+  /// Chooses at most `count` patches, spread evenly over all by number or, with weights, half of
+  /// them by number and half by weight; or all if there are not more.
+  /// @param weights  [patch] >= 0; empty: none
+  Status choose(std::uint32_t patch_count, std::uint32_t count,
+                std::span<const double> weights = {}) noexcept;
+
+  /// How many patches the k-th one stands for.
+  double stands_for(std::size_t k) const noexcept { return stands_for_[k]; }
 
   std::span<const std::uint32_t> patches() const noexcept { return patches_.span(); }
 
   /// The exact rows: row k belongs to patches()[k].
   FormFactorMatrix exact;
 
-  /// RMS over the sampled rows of the error of a form factor, over the RMS of a form factor.
+  /// RMS error of a form factor over all pairs over the RMS of a form factor, as far as the sample
+  /// tells.
   /// @param row_of      RowView(k), the row to judge of patches()[k]
   /// @param has_row     bool(k)
   template <typename RowOf, typename HasRow>
@@ -30,9 +37,11 @@ public:
       for_each_difference(row, truth, [&](std::uint32_t, double difference) {
         row_errors += difference * difference;
       });
-      errors += row_errors;
+      errors += stands_for_[k] * row_errors;
+      double row_all = 0;
       for (const float value : truth.values)
-        all += truth.scale * truth.scale * static_cast<double>(value) * static_cast<double>(value);
+        row_all += static_cast<double>(value) * static_cast<double>(value);
+      all += stands_for_[k] * truth.scale * truth.scale * row_all;
     }
     return all > 0 ? root(errors / all) : 0;
   }
@@ -66,6 +75,7 @@ private:
   static double root(double x) noexcept;
 
   Buffer<std::uint32_t> patches_; ///< ascending
+  Buffer<double> stands_for_;     ///< [sampled patch]
 };
 
 } // namespace hemicube::radiosity

@@ -58,7 +58,6 @@ private:
   RowGeometry geometry_;
   RungSetting setting_;
   Dial dial_;
-  RowSample sample_; ///< what the error is estimated by, unless the dial's will do
   RowRun run_;
   RowStatistics statistics_;
   FormFactorMatrix matrix_;
@@ -118,19 +117,16 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   *is_enough = true;
   if (!options_.estimate_error || setting_.rung == Rung::kExact)
     return {};
-  const RowSample* sample = dial_.sample_for(setting_);
-  if (sample == nullptr) {
-    HC_TRY(sample_.choose(patches_.patch_count(), kErrorSampleRows));
-    HC_TRY(compute_exact_rows(&geometry_, finer_setting(setting_), options_, executor_, &sample_));
-    sample = &sample_;
-  }
+  RowSample sample;
+  HC_TRY(choose_sample(problem_, radiosity_.span(), &sample));
+  HC_TRY(compute_exact_rows(&geometry_, finer_setting(setting_), options_, executor_, &sample));
   Certificate& c = *certificate;
-  HC_TRY(estimate_radiosity_error(*sample, matrix_, problem_, radiosity_.span(), executor_,
+  HC_TRY(estimate_radiosity_error(sample, matrix_, problem_, radiosity_.span(), executor_,
                                   &c.radiosity_error));
   c.has_radiosity_error = true;
-  c.form_factor_error = sample->form_factor_error(
-      [&](std::size_t k) { return matrix_.row(sample->patches()[k]); },
-      [&](std::size_t k) { return !problem_.is_black(sample->patches()[k]); });
+  c.form_factor_error = sample.form_factor_error(
+      [&](std::size_t k) { return matrix_.row(sample.patches()[k]); },
+      [&](std::size_t k) { return !problem_.is_black(sample.patches()[k]); });
   c.has_form_factor_error = true;
   if (!options_.choose_rung || c.radiosity_error <= options_.error)
     return {};

@@ -21,7 +21,7 @@ constexpr std::uint32_t kManyFaces = 2048;
 constexpr double kExactShare = 1e-6;
 constexpr double kExactIntegral = 1e-10;
 constexpr double kFineIntegral = 1e-5;
-constexpr double kIntegralPerTarget = 1e-2;
+constexpr double kIntegralPerTarget = 2e-4;
 
 /// The errors of the shares of pairs are estimated from above and add up as squares.
 constexpr double kSharePerTarget = 1;
@@ -73,7 +73,7 @@ double LadderSetup::integral_error() const noexcept {
   if (setting.rung == Rung::kExact)
     return kExactIntegral;
   return setting.rung == Rung::kAdaptive
-             ? std::min(kIntegralPerTarget * setting.target, 10 * kFineIntegral)
+             ? std::min(kIntegralPerTarget * setting.target, 1e-4)
              : kFineIntegral;
 }
 
