@@ -53,26 +53,6 @@ void Dial::list_candidates(const RungSetting& wish) {
     add(Rung::kAdaptive, wish.resolution, target);
 }
 
-/// Light that is good enough to weigh the errors of rows with: what is emitted, and a mean of what
-/// is reflected everywhere (the ambient term of Cohen et al. 1988).
-Status Dial::guess_light() {
-  const LightProblem& p = *problem_;
-  HC_TRY(light_.resize(p.patch_count() * p.band_count));
-  for (std::uint32_t b = 0; b < p.band_count; ++b) {
-    double emitted = 0, absorbing = 0;
-    for (std::size_t i = 0; i < p.patch_count(); ++i) {
-      emitted += p.area[i] * p.exitance[i * p.band_count + b];
-      absorbing += p.area[i] * (1 - p.reflectance[i * p.band_count + b]);
-    }
-    const double ambient = (absorbing > 0 ? emitted / absorbing : emitted) + p.space_exitance[b];
-    for (std::size_t i = 0; i < p.patch_count(); ++i) {
-      const std::size_t at = i * p.band_count + b;
-      light_[at] = p.exitance[at] + p.reflectance[at] * ambient;
-    }
-  }
-  return {};
-}
-
 /// @param rows  row k belongs to the sample's patch k
 double Dial::light_error(const FormFactorMatrix& rows) const {
   const LightProblem& p = *problem_;
@@ -138,7 +118,7 @@ Status Dial::choose(RungSetting* setting) {
   order_by_cost(static_cast<double>(work) / rows,
                 static_cast<double>(sample_.exact.nonzero_count()) / rows);
   if (problem_ != nullptr)
-    HC_TRY(guess_light());
+    HC_TRY(guess_light(*problem_, &light_));
   HC_TRY(find_cheapest(options_.error / kMargin, &chosen_));
   *setting = candidates_[chosen_].setting;
   return {};

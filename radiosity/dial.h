@@ -33,7 +33,6 @@ private:
   Status judge(Candidate* candidate);
   void order_by_cost(double exact_work, double seen);
   Status find_cheapest(double bound, std::size_t* found);
-  Status guess_light();
   double light_error(const FormFactorMatrix& rows) const;
 
   RowGeometry* geometry_;

@@ -64,18 +64,47 @@ Status spread_defects(const RowSample& sample, const FormFactorMatrix& matrix,
 
 } // namespace
 
-Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
-                     RowSample* sample) {
-  const std::uint32_t bands = problem.band_count;
-  Buffer<double> weights;
-  HC_TRY(weights.resize(problem.patch_count()));
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    for (std::uint32_t b = 0; b < bands; ++b) {
-      const double reflected = radiosity[i * bands + b] - problem.exitance[i * bands + b];
-      weights[i] += problem.area[i] * reflected * reflected;
+Status guess_light(const LightProblem& p, Buffer<double>* light) {
+  HC_TRY(light->resize(p.patch_count() * p.band_count));
+  for (std::uint32_t b = 0; b < p.band_count; ++b) {
+    double emitted = 0, absorbing = 0;
+    for (std::size_t i = 0; i < p.patch_count(); ++i) {
+      emitted += p.area[i] * p.exitance[i * p.band_count + b];
+      absorbing += p.area[i] * (1 - p.reflectance[i * p.band_count + b]);
     }
-  return sample->choose(static_cast<std::uint32_t>(problem.patch_count()), kErrorSampleRows,
-                        weights.span());
+    const double ambient = (absorbing > 0 ? emitted / absorbing : emitted) + p.space_exitance[b];
+    for (std::size_t i = 0; i < p.patch_count(); ++i) {
+      const std::size_t at = i * p.band_count + b;
+      (*light)[at] = p.exitance[at] + p.reflectance[at] * ambient;
+    }
+  }
+  return {};
+}
+
+Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
+                     std::span<const double> doubt, RowSample* sample) {
+  const std::uint32_t bands = problem.band_count;
+  const std::size_t count = problem.patch_count();
+  Buffer<double> reflecting, doubtful;
+  HC_TRY(reflecting.resize(count));
+  HC_TRY(doubtful.resize(count));
+  double all_reflecting = 0, all_doubtful = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    double reflectance = 0;
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      const std::size_t at = i * bands + b;
+      const double reflected = radiosity[at] - problem.exitance[at];
+      reflecting[i] += problem.area[i] * reflected * reflected;
+      reflectance += problem.reflectance[at];
+    }
+    doubtful[i] = problem.area[i] * reflectance * reflectance * doubt[i] * doubt[i];
+    all_reflecting += reflecting[i];
+    all_doubtful += doubtful[i];
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    reflecting[i] = (all_reflecting > 0 ? reflecting[i] / all_reflecting : 0) +
+                    (all_doubtful > 0 ? doubtful[i] / all_doubtful : 0);
+  return sample->choose(static_cast<std::uint32_t>(count), kErrorSampleRows, reflecting.span());
 }
 
 RungSetting finer_setting(const RungSetting& setting) noexcept {

@@ -6,11 +6,18 @@
 namespace hemicube::radiosity {
 
 /// Rows that the error of all is estimated by, or all if there are not more.
-inline constexpr std::uint32_t kErrorSampleRows = 32;
+inline constexpr std::uint32_t kErrorSampleRows = 64;
 
-/// Chooses a sample for estimate_radiosity_error: by the light that patches reflect.
+/// Light that is good enough to weigh the errors of rows with: what is emitted, and a mean of what
+/// is reflected everywhere (the ambient term of Cohen et al. 1988).
+/// @param light  out, [patch][band], W/m^2
+Status guess_light(const LightProblem& problem, Buffer<double>* light);
+
+/// Chooses a sample for estimate_radiosity_error: by the light that patches reflect, and by how
+/// wrong that may be.
+/// @param doubt  [patch], RowFacts::doubt
 Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
-                     RowSample* sample);
+                     std::span<const double> doubt, RowSample* sample);
 
 /// A setting that is so much finer that its error does not count beside that of `setting`.
 RungSetting finer_setting(const RungSetting& setting) noexcept;

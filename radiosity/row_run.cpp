@@ -3,9 +3,11 @@
 namespace hemicube::radiosity {
 
 Status RowRun::init(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-                    std::uint64_t total, Executor& executor, Progress* progress) {
+                    std::uint64_t total, Executor& executor, Progress* progress,
+                    std::span<const double> light) {
   HC_TRY(check_float_environment());
   executor_ = &executor;
+  setup_.light = light;
   progress_ = progress;
   total_ = total;
   done_ = 0;

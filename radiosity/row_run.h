@@ -16,8 +16,10 @@ public:
   /// @param total     rows that will be built in all, for `progress`
   /// @param progress  may be null
   /// @param geometry  outlives this
+  /// @param light     see LadderSetup; outlives this
   Status init(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-              std::uint64_t total, Executor& executor, Progress* progress);
+              std::uint64_t total, Executor& executor, Progress* progress,
+              std::span<const double> light = {});
 
   /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before

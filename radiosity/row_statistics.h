@@ -21,6 +21,8 @@ public:
   double space(std::uint64_t index) const { return rows_[index].space; }
   double back_side(std::uint64_t index) const { return rows_[index].back_side; }
 
+  double doubt(std::uint64_t index) const { return rows_[index].facts.doubt; }
+
   void summarise(Certificate* certificate) const;
 
 private:

@@ -55,6 +55,7 @@ private:
 
   LightModel light_;
   LightProblem problem_;
+  Buffer<double> light_guess_; ///< [patch] all bands together
   RowGeometry geometry_;
   RungSetting setting_;
   Dial dial_;
@@ -72,6 +73,14 @@ Status SceneSolver::prepare() {
 
 Status SceneSolver::choose_setting() {
   setting_ = {options_.rung, options_.resolution, options_.error};
+  if (options_.estimate_error) {
+    Buffer<double> light;
+    const std::uint32_t bands = problem_.band_count;
+    HC_TRY(guess_light(problem_, &light));
+    HC_TRY(light_guess_.resize(patches_.patch_count()));
+    for (std::size_t k = 0; k < light.size(); ++k)
+      light_guess_[k / bands] += light[k];
+  }
   return dial_.choose(&setting_);
 }
 
@@ -81,7 +90,8 @@ Status SceneSolver::build_matrix(Certificate* certificate) {
   if (!options_.black_irradiance && !options_.balance)
     for (std::uint32_t i = 0; i < count; ++i)
       rows -= problem_.is_black(i) ? 1 : 0;
-  HC_TRY(run_.init(&geometry_, setting_, options_, rows, executor_, progress_));
+  HC_TRY(
+      run_.init(&geometry_, setting_, options_, rows, executor_, progress_, light_guess_.span()));
   HC_TRY(statistics_.init(count, options_.hash_items));
   HC_TRY(matrix_.init(count, count));
   HC_TRY(run_.build_all(
@@ -118,7 +128,11 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   if (!options_.estimate_error || setting_.rung == Rung::kExact)
     return {};
   RowSample sample;
-  HC_TRY(choose_sample(problem_, radiosity_.span(), &sample));
+  Buffer<double> doubt;
+  HC_TRY(doubt.resize(patches_.patch_count()));
+  for (std::uint32_t i = 0; i < patches_.patch_count(); ++i)
+    doubt[i] = problem_.is_black(i) ? 0 : statistics_.doubt(i);
+  HC_TRY(choose_sample(problem_, radiosity_.span(), doubt.span(), &sample));
   HC_TRY(compute_exact_rows(&geometry_, finer_setting(setting_), options_, executor_, &sample));
   Certificate& c = *certificate;
   HC_TRY(estimate_radiosity_error(sample, matrix_, problem_, radiosity_.span(), executor_,

@@ -9,8 +9,9 @@ namespace hemicube::radiosity {
 /// What two patches exchange: A_i F_ij = A_j F_ji, the same number for both rows.
 struct PairExchange {
   std::uint32_t patch = 0;   ///< the other one
-  bool is_estimated = false; ///< partly hidden: closure may scale it
   float error = 0;           ///< estimated, in units of value
+  float doubt = 0;           ///< what it might be wrong by, for the choice of rows to look at again
+  bool is_estimated = false; ///< partly hidden: closure may scale it
   double value = 0;          ///< m^2; of a point, the form factor itself
 };
 

@@ -33,6 +33,11 @@ constexpr double kExactPart = 1.0 / 4096;
 
 constexpr std::uint32_t kManyPoints = 4096, kMostPoints = 1u << 20;
 
+/// One point stands badly for a patch near by: a form factor f is wrong by about this times f^2.
+constexpr double kNearness = 0.25;
+/// A visible share s that was seen from one point may be wrong by this times s (1 - s), and more.
+constexpr double kOneView = 1, kUnseenShare = 0.03;
+
 /// Nanoseconds, about what they took once.
 constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 200;
 
@@ -72,9 +77,8 @@ Status LadderSetup::init(RowGeometry* geometry_in, const RungSetting& setting_in
 double LadderSetup::integral_error() const noexcept {
   if (setting.rung == Rung::kExact)
     return kExactIntegral;
-  return setting.rung == Rung::kAdaptive
-             ? std::min(kIntegralPerTarget * setting.target, 1e-4)
-             : kFineIntegral;
+  return setting.rung == Rung::kAdaptive ? std::min(kIntegralPerTarget * setting.target, 1e-4)
+                                         : kFineIntegral;
 }
 
 Status LadderRow::init(const LadderSetup& setup) {
@@ -105,7 +109,20 @@ Status LadderRow::build(const RowPlace& place, RowView* row, RowFacts* facts) {
   facts->hemicubes = 1;
   facts->raw_sum = row_sum(*row); // integer sums close by themselves
   facts->item_hash = hemicube_.item_hash();
+  doubt_squares_ = 0;
+  for (std::size_t k = 0; k < row->columns.size(); ++k) {
+    const double value = row->scale * static_cast<double>(row->values[k]);
+    add_doubt(row->columns[k], kNearness * value * value);
+  }
+  facts->doubt = std::sqrt(doubt_squares_);
   return {};
+}
+
+void LadderRow::add_doubt(std::uint32_t patch, double doubt) noexcept {
+  if (setup_->light.empty())
+    return;
+  const double wrong = doubt * setup_->light[patch];
+  doubt_squares_ += wrong * wrong;
 }
 
 Status LadderRow::find_pairs(std::uint32_t patch, ReceiverExchange* exchange, RowFacts* facts) {
@@ -189,12 +206,15 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
       HC_TRY(find_share(view, receiver, target, facet, whole.value, &share, facts));
     const double value = whole.value * share.share;
     const double error = whole.error + whole.value * share.error;
+    double doubt = whole.value * share.doubt;
+    if (setup_->setting.rung == Rung::kAnalytic)
+      doubt += kNearness * value * value;
     if (target.is_back()) {
       exchange_.back_side += value;
       exchange_.back_side_error += error;
-    } else if (value > 0 || error > 0) {
-      HC_TRY(pairs_.push_back(
-          {target.piece->patch, target.blocker_count != 0, static_cast<float>(error), value}));
+    } else if (value > 0 || doubt > 0) {
+      HC_TRY(pairs_.push_back({target.piece->patch, static_cast<float>(error),
+                               static_cast<float>(doubt), target.blocker_count != 0, value}));
     }
   }
   return {};
@@ -224,6 +244,7 @@ Status LadderRow::find_share(const raster::View& view, const PatchPiece& receive
   if (has_one_piece && from_eye > kFewPixels * pixel) {
     const double seen = static_cast<double>(pixels_[patch]) / from_eye;
     share->share = seen < 1 ? seen : 1;
+    share->doubt = kUnseenShare + kOneView * share->share * (1 - share->share);
     return {};
   }
   HC_TRY(integrate_share(receiver, target, facet, {1, 1, 1}, share));
@@ -258,7 +279,7 @@ Status LadderRow::integrate_share(const PatchPiece& receiver, const SeenTarget& 
 Status LadderRow::assemble(const ReceiverExchange& own, std::span<const PairExchange> others,
                            RowView* row, RowFacts* facts) {
   touched_.clear();
-  error_sum_ = error_squares_ = 0;
+  error_sum_ = error_squares_ = doubt_squares_ = 0;
   if (!rendered_)
     space_ = 0;
   for (const auto pairs : {own.pairs, others})
@@ -270,6 +291,7 @@ Status LadderRow::assemble(const ReceiverExchange& own, std::span<const PairExch
   error_sum_ += back_side_error;
   error_squares_ += back_side_error * back_side_error;
   facts->error = std::sqrt(error_squares_);
+  facts->doubt = std::sqrt(doubt_squares_);
   close(facts);
   *row = store();
   return {};
@@ -279,6 +301,7 @@ Status LadderRow::add(const PairExchange& pair, double area) {
   const double error = static_cast<double>(pair.error) / area;
   error_sum_ += error;
   error_squares_ += error * error;
+  add_doubt(pair.patch, static_cast<double>(pair.doubt) / area);
   if (!(pair.value > 0))
     return {};
   Entry& entry = entries_[pair.patch];

@@ -14,6 +14,7 @@ namespace hemicube::radiosity {
 struct LadderSetup {
   RungSetting setting;
   const RowGeometry* geometry = nullptr;
+  std::span<const double> light; ///< [patch] guess of what it sends out; may be empty
   RowSetup hemicube;
 
   /// @param geometry_in  outlives this; what the rung needs is built
@@ -40,7 +41,9 @@ struct RowFacts {
   std::uint32_t hemicubes = 0;
   std::uint32_t subpixel_patches = 0; ///< seen without a pixel of their own
   double raw_sum = 0;                 ///< of the row, before closure
-  double error = 0;       ///< estimated: root of the sum of the squared errors of the entries
+  double error = 0; ///< estimated: root of the sum of the squared errors of the entries
+  double doubt =
+      0; ///< what light may be wrong by because of the row, in units of LadderSetup::light
   std::uint64_t work = 0; ///< what it took without hemicubes, roughly nanoseconds; not a
                           ///< measurement: the same everywhere
   std::uint64_t item_hash = 0;
@@ -85,6 +88,7 @@ private:
                          const Effort& effort, VisibleShare* share);
   Status render(const raster::View& view, RowFacts* facts);
   Status add(const PairExchange& pair, double area);
+  void add_doubt(std::uint32_t patch, double doubt) noexcept;
   void close(RowFacts* facts);
   void scale(double proven, double estimated);
   RowView store();
@@ -100,7 +104,7 @@ private:
   Buffer<Entry> entries_;         ///< [patch] zero between rows
   Buffer<std::uint32_t> touched_; ///< patches with an entry
   double space_ = 0, back_side_ = 0;
-  double error_sum_ = 0, error_squares_ = 0;
+  double error_sum_ = 0, error_squares_ = 0, doubt_squares_ = 0;
   bool rendered_ = false; ///< space, back side and pixels_ come from an item buffer
   Buffer<float> pixels_;  ///< [patch] its share of the hemicube; zero between rows
   Buffer<std::uint32_t> pixel_patches_;

@@ -18,6 +18,9 @@ constexpr double kPoints[4][2] = {{0.5 + kFar, 0.5 + kNear},
 /// kinks; half of it is said.
 constexpr double kErrorLeft = 0.5;
 
+/// What a few points that show the same may have missed.
+constexpr double kUnseen = 0.03;
+
 /// A point of a quadrilateral, and how much area belongs to a unit of u and v there, as a vector.
 struct Spot {
   Vec3 point, area;
@@ -223,6 +226,7 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   if (refined.whole > 0)
     share->share = refined.visible / refined.whole;
   share->error = error;
+  share->doubt = error > kUnseen ? error : kUnseen;
   return {};
 }
 

@@ -8,6 +8,7 @@ namespace hemicube::radiosity {
 struct VisibleShare {
   double share = 1; ///< 0..1
   double error = 0; ///< estimate of |share - exact|
+  double doubt = 0; ///< what it might be wrong by if the estimate is
 };
 
 /// How hard to try.
