@@ -32,6 +32,10 @@ radiosity::Scene reference_scene(const std::string& name) {
   return scene;
 }
 
+SquareMatrix reference_matrix(const std::string& name) {
+  return read_npy(path_of(name));
+}
+
 nlohmann::json reference_case(const std::string& file, const std::string& name) {
   const nlohmann::json all = reference_json(file);
   for (const nlohmann::json& one : all["cases"])

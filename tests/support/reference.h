@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/scene/scene.h"
+#include "tests/support/npy.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,9 @@ nlohmann::json reference_json(const std::string& name);
 
 /// Reads a scene through the program's own reader; throws with its message on any error.
 radiosity::Scene reference_scene(const std::string& name);
+
+/// Reads a matrix of form factors: row i, column j is F_ij. Throws if it cannot.
+SquareMatrix reference_matrix(const std::string& name);
 
 /// The case of enclosures.json or formfactors.json with this name.
 nlohmann::json reference_case(const std::string& file, const std::string& name);
