@@ -12,7 +12,8 @@ TEST_PACKAGES := libgtest-dev
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 BENCH_PACKAGES := libbenchmark-dev
-PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri gnuplot-nox
+PLOT_PACKAGES := gnuplot-nox
+PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri $(PLOT_PACKAGES)
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
 # Packages of a list that are not installed; none where there is no dpkg to ask.
@@ -25,7 +26,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench peers golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed peers golden clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -94,6 +95,14 @@ bench: deps ## hemicubes per second beside their error, and each kernel alone, i
 	@$(BUILD)/kernels_bench --benchmark_min_time=0.05 --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out_format=csv \
 	  --benchmark_out=bench/results/kernels.csv
+
+speed: deps ## error against time of every rung of accuracy, table and plots, into bench/results
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target speed_error
+	@$(BUILD)/speed_error bench/results
+	@if command -v gnuplot >/dev/null; then for table in bench/results/*/speed_error.csv; do \
+	  gnuplot -e "folder='$$(dirname $$table)'" bench/speed/plot.gp; done; \
+	else echo "speed: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
 
 peers: deps ## install other programs and time them beside this one into bench/results
 	$(call install,$(PEER_PACKAGES))

@@ -14,6 +14,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 using namespace hemicube;
@@ -29,6 +30,8 @@ constexpr double kTargets[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
 // A setting is run again until it has had its time. Twice at least: the hashes are compared.
 constexpr std::size_t kLeastRuns = 2, kMostRuns = 9;
 constexpr double kEnoughSeconds = 0.6;
+// What takes longer is left out.
+constexpr double kMostSeconds = 6;
 
 /// A point of a line of the plot: a rung, and what is varied on it.
 struct Setting {
@@ -73,8 +76,15 @@ struct Measured {
   Run first;
   std::vector<double> form_factor_seconds, total_seconds;
   double spent = 0;
+  bool is_too_long = false;
 
+  std::string name() const {
+    return std::string(rung_name(setting.rung)) + " " + setting.resolution_text() +
+           setting.target_text();
+  }
   bool wants_more() const {
+    if (is_too_long)
+      return false;
     const std::size_t runs = total_seconds.size();
     return runs < kLeastRuns || (runs < kMostRuns && spent < kEnoughSeconds);
   }
@@ -104,13 +114,19 @@ void check_errors(const TruthCase& truth, const Errors& errors) {
 }
 
 void run_once(const TruthCase& truth, Measured* measured) {
-  const Run run = truth.run(measured->setting.options());
-  if (measured->total_seconds.empty()) {
+  const bool is_first = measured->total_seconds.empty();
+  const std::optional<Run> finished =
+      truth.run(measured->setting.options(), is_first ? kMostSeconds : 10 * kMostSeconds);
+  if (!finished) {
+    measured->is_too_long = true;
+    return;
+  }
+  const Run& run = *finished;
+  if (is_first) {
     check_errors(truth, run.errors);
     measured->first = run;
   } else if (run.hash != measured->first.hash) {
-    throw std::runtime_error(truth.name() + ", rung " + rung_name(measured->setting.rung) + " " +
-                             measured->setting.resolution_text() + measured->setting.target_text() +
+    throw std::runtime_error(truth.name() + ", rung " + measured->name() +
                              ": two runs with the same setting have different hashes");
   }
   measured->form_factor_seconds.push_back(run.form_factor_seconds);
@@ -138,7 +154,7 @@ std::string csv_line(const TruthCase& truth, const Measured& measured) {
 std::string measure(const TruthCase& truth) {
   std::vector<Measured> all;
   for (const Setting& setting : all_settings())
-    all.push_back({setting, {}, {}, {}});
+    all.push_back({setting, {}, {}, {}, 0, false});
   for (bool more = true; more;) {
     more = false;
     for (Measured& measured : all)
@@ -148,8 +164,13 @@ std::string measure(const TruthCase& truth) {
       }
   }
   std::string lines;
-  for (const Measured& measured : all)
-    lines += csv_line(truth, measured);
+  for (const Measured& measured : all) {
+    if (!measured.is_too_long)
+      lines += csv_line(truth, measured);
+    else
+      std::fprintf(stderr, "speed_error: %s, rung %s: more than %g s, left out\n",
+                   truth.name().c_str(), measured.name().c_str(), kMostSeconds);
+  }
   return lines;
 }
 

@@ -6,11 +6,13 @@
 
 namespace hemicube::bench {
 
-/// Splits a run on the calling thread into form factors and the rest. Counts the time the processor
-/// spent on this thread: what others do on the machine counts less than on a wall clock.
+/// Splits a run on the calling thread into form factors and the rest, and stops it when it takes
+/// too long. Counts the time the processor spent on this thread: what others do on the machine
+/// counts less than on a wall clock.
 class StageClock final : public radiosity::Progress {
 public:
-  StageClock() : start_(now()) {}
+  /// @param limit  seconds after which rows are no longer waited for: the run ends with kCancelled
+  explicit StageClock(double limit) : limit_(limit), start_(now()) {}
 
   bool rows(std::uint64_t, std::uint64_t) noexcept override {
     const double time = now();
@@ -19,7 +21,7 @@ public:
       late_rows_start_ = time;
     }
     last_row_ = time;
-    return true;
+    return time - start_ <= limit_;
   }
   bool sweeps(std::uint64_t, double) noexcept override {
     if (!sweeping_)
@@ -43,7 +45,7 @@ private:
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
 
-  double start_, first_rows_end_ = 0, late_rows_start_ = 0, last_row_ = 0;
+  double limit_, start_, first_rows_end_ = 0, late_rows_start_ = 0, last_row_ = 0;
   bool sweeping_ = false;
 };
 

@@ -71,17 +71,20 @@ void TruthCase::read_radiosities(const std::string& mesh, const nlohmann::json& 
   check_table(continuous_b_, patches_.patch_count(), scene_.band_count(), name_);
 }
 
-Run TruthCase::run(const Options& options) const {
-  return is_matrix() ? run_matrix(options) : run_scene(options);
+std::optional<Run> TruthCase::run(const Options& options, double limit) const {
+  return is_matrix() ? run_matrix(options, limit) : run_scene(options, limit);
 }
 
-Run TruthCase::run_matrix(const Options& options) const {
+std::optional<Run> TruthCase::run_matrix(const Options& options, double limit) const {
   radiosity::SerialExecutor executor;
   FormFactorMatrix matrix;
   Certificate certificate;
-  StageClock clock;
-  require(radiosity::compute_form_factors(patches_, {}, options, executor, &clock, &matrix,
-                                          &certificate));
+  StageClock clock(limit);
+  const Status status = radiosity::compute_form_factors(patches_, {}, options, executor, &clock,
+                                                        &matrix, &certificate);
+  if (status.code() == StatusCode::kCancelled)
+    return {};
+  require(status);
   Run run;
   run.form_factor_seconds = run.total_seconds = clock.seconds();
   run.hash = certificate.form_factor_hash;
@@ -102,13 +105,16 @@ Run TruthCase::run_matrix(const Options& options) const {
   return run;
 }
 
-Run TruthCase::run_scene(const Options& options) const {
+std::optional<Run> TruthCase::run_scene(const Options& options, double limit) const {
   radiosity::SerialExecutor executor;
   radiosity::Solution solution;
   Certificate certificate;
-  StageClock clock;
-  require(
-      radiosity::solve_scene(scene_, patches_, options, executor, &clock, &solution, &certificate));
+  StageClock clock(limit);
+  const Status status =
+      radiosity::solve_scene(scene_, patches_, options, executor, &clock, &solution, &certificate);
+  if (status.code() == StatusCode::kCancelled)
+    return {};
+  require(status);
   Run run;
   run.total_seconds = clock.seconds();
   run.form_factor_seconds = clock.form_factor_seconds();

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,14 +45,15 @@ public:
   std::uint32_t patch_count() const { return patches_.patch_count(); }
 
   /// Computes the form factors, and the light of a scene, on one thread.
-  Run run(const radiosity::Options& options) const;
+  /// @return nothing if the rows take longer than `limit` seconds
+  std::optional<Run> run(const radiosity::Options& options, double limit) const;
 
 private:
   void read_matrix();
   void read_radiosities(const std::string& mesh, const nlohmann::json& constant_elements,
                         const nlohmann::json& continuous);
-  Run run_matrix(const radiosity::Options& options) const;
-  Run run_scene(const radiosity::Options& options) const;
+  std::optional<Run> run_matrix(const radiosity::Options& options, double limit) const;
+  std::optional<Run> run_scene(const radiosity::Options& options, double limit) const;
 
   Kind kind_;
   std::string name_;
