@@ -13,7 +13,6 @@ set tics textcolor rgb "black"
 set logscale xy
 set format "10^{%T}"
 set lmargin 9
-set rmargin 2
 
 rungs = "hemicube analytic area adaptive exact"
 rung_colours = "#909090 #70a0d8 #2060b0 #c03028 #000000"
@@ -22,18 +21,19 @@ rung_points = "7 5 9 7 3"
 # and 8, relative error of B and time of form factors and solver. 3 is the rung, 4 and 5 are what is
 # varied on it.
 of(scene, k, value) = (strcol(1) eq scene && strcol(3) eq word(rungs, k)) ? value : NaN
-# The first and the last point of a line are named.
-is_end(s) = s eq "64" || s eq "512" || s eq "0.3" || s eq "0.001"
-setting(n) = strcol(4) . strcol(5)
-end_label(n) = is_end(setting(n)) ? setting(n) : ""
+# The ends of a line are named: to its left (a column of 1) or to its right (2).
+resolution_label(k, side) = side == (k == 2 ? 1 : 2) && (strcol(4) eq "64" || strcol(4) eq "512") ? strcol(4) : ""
+target_label(side) = side == 2 && strcol(5) eq "0.3" ? "0.3" : side == 1 && strcol(5) eq "0.001" ? "0.001" : ""
+end_label(k, side) = k == 4 ? target_label(side) : resolution_label(k, side)
+rung_keys = '"hemicube, resolution" "analytic, resolution" "area, resolution" "adaptive, error target" "exact"'
 
 programs = '"View3D" "Chaparral pairwise" "Chaparral hemicube" "Chaparral hemicube subdivided"'
-program_keys = '"View3D, eps" "Chaparral pairwise, rays" "Chaparral hemicube, R" "the same, subdivided and smoothed"'
+program_keys = '"View3D, eps" "Chaparral pairwise" "Chaparral hemicube" "Chaparral, subdivided"'
 program_colours = "#409040 #b07010 #a060c0 #a060c0"
 program_points = "8 4 10 12"
 by(scene, k, value) = (strcol(1) eq scene && strcol(2) eq word(programs, k)) ? value : NaN
 
-titles = '"cornell" "tableroom_a" "tworooms_a" "corridor_a" "corner2_90_a" "corner2_10_a" "cube_mixed" "room_bleed"'
+scenes = '"cornell" "tableroom_a" "tworooms_a" "corridor_a" "corner2_90_a" "corner2_10_a" "cube_mixed" "room_bleed"'
 
 do for [type in "svg png"] {
   # Matrices.
@@ -44,10 +44,11 @@ do for [type in "svg png"] {
       set terminal pngcairo size 960,560 font "sans,10"
     }
     set output target . "/speed_error_" . scene . "." . type
-    set key outside right top Left reverse samplen 2 spacing 1.2 width -2
+    set rmargin 30
+    set key outside right top Left reverse samplen 2 spacing 1.2
     if (scene eq "cube8") {
       set title "Inside of a cube, 8 x 8 patches a face, nothing blocks (cube8, N = 384)"
-      set xrange [5e-11:3e-3]
+      set xrange [2e-11:3e-3]
     } else {
       set title "The same cube with a box of 4 x 4 patches a face in it (boxin, N = 480)"
       set xrange [1e-8:3e-3]
@@ -56,14 +57,20 @@ do for [type in "svg png"] {
     set ylabel "seconds, one thread"
     set yrange [*:*]
     plot for [k = 1:5] table using (of(scene, k, $9)):(of(scene, k, $7)) \
-           with linespoints lc rgb word(rung_colours, k) lw 2 pt int(word(rung_points, k)) ps 0.8 title word(rungs, k), \
-         for [k = 1:4] table using (of(scene, k, $9)):(of(scene, k, $7)):(end_label(0)) \
-           with labels offset 0,0.8 tc rgb word(rung_colours, k) notitle, \
+           with linespoints lc rgb word(rung_colours, k) lw 2 pt int(word(rung_points, k)) ps 0.8 title word(rung_keys, k), \
+         for [k = 1:4] table using (of(scene, k, $9)):(of(scene, k, $7)):(end_label(k, 1)) \
+           with labels right offset -0.8,0 tc rgb word(rung_colours, k) notitle, \
+         for [k = 1:4] table using (of(scene, k, $9)):(of(scene, k, $7)):(end_label(k, 2)) \
+           with labels left offset 0.8,0 tc rgb word(rung_colours, k) notitle, \
          for [k = 1:4] published using (by(scene, k, $5)):(by(scene, k, $4)) \
            with points lc rgb word(program_colours, k) lw 2 pt int(word(program_points, k)) ps 1.1 \
            title word(program_keys, k), \
-         for [k = 1:4] published using (by(scene, k, $5)):(by(scene, k, $4)):(strcol(3)) \
-           with labels offset 0,-0.9 tc rgb word(program_colours, k) notitle
+         published using (by(scene, 1, $5)):(by(scene, 1, $4)):(strcol(3)) \
+           with labels center offset 0,-0.9 tc rgb word(program_colours, 1) notitle, \
+         published using (by(scene, 2, $5)):(by(scene, 2, $4)):(strcol(3)) \
+           with labels left offset 1,0.2 tc rgb word(program_colours, 2) notitle, \
+         for [k = 3:4] published using (by(scene, k, $5)):(by(scene, k, $4)):(strcol(3)) \
+           with labels right offset -1,0 tc rgb word(program_colours, k) notitle
     unset output
   }
 
@@ -74,17 +81,23 @@ do for [type in "svg png"] {
     set terminal pngcairo size 1200,640 font "sans,8"
   }
   set output target . "/speed_error_scenes." . type
+  set rmargin 2
   set multiplot layout 2,4 title "Radiosity: form factors and solver, one thread, against the solution with exact form factors on the same mesh"
-  do for [scene in titles] {
-    set title scene
+  do for [scene in scenes] {
+    set title scene noenhanced
+    closed_form = scene eq "corner2_90_a" || scene eq "cube_mixed" || scene eq "room_bleed"
+    set xtics closed_form ? 100 : 10
+    if (closed_form) { set xrange [2e-11:1e-1] } else { set xrange [2e-4:1e-1] }
+    set yrange [1e-3:10]
     set xlabel "relative error of B"
     set ylabel "seconds"
-    set autoscale xy
-    if (scene eq "cornell") { set key inside right top Left reverse samplen 1.5 } else { unset key }
+    if (scene eq "cornell") { set key inside left bottom Left reverse samplen 1.5 } else { unset key }
     plot for [k = 1:5] table using (of(scene, k, $11)):(of(scene, k, $8)) \
            with linespoints lc rgb word(rung_colours, k) lw 1.5 pt int(word(rung_points, k)) ps 0.6 title word(rungs, k), \
-         for [k = 1:4] table using (of(scene, k, $11)):(of(scene, k, $8)):(end_label(0)) \
-           with labels offset 0,0.7 tc rgb word(rung_colours, k) notitle
+         for [k = 1:4] table using (of(scene, k, $11)):(of(scene, k, $8)):(end_label(k, 1)) \
+           with labels right offset -0.6,0 tc rgb word(rung_colours, k) notitle, \
+         for [k = 1:4] table using (of(scene, k, $11)):(of(scene, k, $8)):(end_label(k, 2)) \
+           with labels left offset 0.6,0 tc rgb word(rung_colours, k) notitle
   }
   unset multiplot
   unset output
