@@ -45,6 +45,7 @@ do for [type in "svg png"] {
     }
     set output target . "/speed_error_" . scene . "." . type
     set rmargin 30
+    set xtics autofreq
     set key outside right top Left reverse samplen 2 spacing 1.2
     if (scene eq "cube8") {
       set title "Inside of a cube, 8 x 8 patches a face, nothing blocks (cube8, N = 384)"
@@ -87,11 +88,12 @@ do for [type in "svg png"] {
     set title scene noenhanced
     closed_form = scene eq "corner2_90_a" || scene eq "cube_mixed" || scene eq "room_bleed"
     set xtics closed_form ? 100 : 10
-    if (closed_form) { set xrange [2e-11:1e-1] } else { set xrange [2e-4:1e-1] }
+    if (closed_form) { set xrange [2e-11:1e-1] } else { set xrange [2e-4:2e-2] }
+    if (scene eq "corner2_10_a") { set xrange [2e-4:1e-1] }
     set yrange [1e-3:10]
     set xlabel "relative error of B"
     set ylabel "seconds"
-    if (scene eq "cornell") { set key inside left bottom Left reverse samplen 1.5 } else { unset key }
+    if (scene eq "room_bleed") { set key inside right top Left reverse samplen 1.5 } else { unset key }
     plot for [k = 1:5] table using (of(scene, k, $11)):(of(scene, k, $8)) \
            with linespoints lc rgb word(rung_colours, k) lw 1.5 pt int(word(rung_points, k)) ps 0.6 title word(rungs, k), \
          for [k = 1:4] table using (of(scene, k, $11)):(of(scene, k, $8)):(end_label(k, 1)) \
