@@ -11,14 +11,15 @@ namespace hemicube {
 
 enum class StatusCode {
   kOk,
-  kInvalidArgument,            ///< a value the caller gave is out of range
-  kBadScene,                   ///< the scene cannot be modelled as it is
-  kOutOfMemory,                ///< an allocation failed
-  kNotConverged,               ///< the solver stopped before its tolerance
-  kSingular,                   ///< the equations have no solution
-  kIo,                         ///< a file could not be read or written
-  kCancelled,                  ///< the caller asked to stop
-  kUnsupportedFloatEnvironment ///< this build or thread does not compute the promised bits
+  kInvalidArgument,             ///< a value the caller gave is out of range
+  kBadScene,                    ///< the scene cannot be modelled as it is
+  kOutOfMemory,                 ///< an allocation failed
+  kNotConverged,                ///< the solver stopped before its tolerance
+  kSingular,                    ///< the equations have no solution
+  kIo,                          ///< a file could not be read or written
+  kCancelled,                   ///< the caller asked to stop
+  kUnsupportedFloatEnvironment, ///< this build or thread does not compute the promised bits
+  kCheckFailed                  ///< a condition that the caller set does not hold
 };
 
 /// The outcome of a call: a code and, unless it is kOk, one line that says what is wrong, where,

@@ -11,5 +11,6 @@ Status run_formfactors(const CommandLine& line);
 Status run_render(const CommandLine& line);
 Status run_info(const CommandLine& line);
 Status run_look(const CommandLine& line);
+Status run_verify(const CommandLine& line);
 
 } // namespace hemicube::radiosity::cli

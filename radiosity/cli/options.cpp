@@ -63,6 +63,7 @@ public:
     add_render();
     add_info();
     add_look();
+    add_verify();
     // Last, because commands inherit it.
     app_.footer("`hemicube COMMAND --help` tells more of a command.\n"
                 "Exit status: 0 done, 1 failed or not converged, 2 usage, 3 bad scene, "
@@ -248,6 +249,12 @@ private:
       if (!line_.patch && !line_.face)
         throw BadValue("look needs --patch I or --face I");
     });
+  }
+
+  void add_verify() {
+    add_command(Command::kVerify, "verify",
+                "Compute what is known exactly, on every rung or on that of --rung: a table of "
+                "errors and times");
   }
 
   CommandLine& line_;

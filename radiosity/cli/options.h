@@ -12,7 +12,7 @@ namespace hemicube::radiosity::cli {
 /// The version of the program; the build defines it.
 inline constexpr const char* kVersion = HC_VERSION;
 
-enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook };
+enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook, kVerify };
 
 /// Which rows of form factors are wanted, `--rows`.
 struct RowSelection {

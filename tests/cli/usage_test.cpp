@@ -2,12 +2,15 @@
 
 #include "tests/cli/cli_case.h"
 
+#include <fstream>
+
 namespace hemicube::test {
 namespace {
 
 using UsageTest = CliCase;
 
-const std::vector<std::string> kCommands = {"solve", "formfactors", "render", "info", "look"};
+const std::vector<std::string> kCommands = {"solve", "formfactors", "render", "info", "look",
+                                            "verify"};
 
 TEST_F(UsageTest, HelpNamesEveryCommandAndExitStatus) {
   const ProgramResult result = run(0, {"--help"});
@@ -22,7 +25,8 @@ TEST_F(UsageTest, HelpOfACommandShowsItsOwnAndTheCommonOptions) {
                                                                 {"formfactors", "--points"},
                                                                 {"render", "--camera-position"},
                                                                 {"info", "SCENE"},
-                                                                {"look", "--patch"}};
+                                                                {"look", "--patch"},
+                                                                {"verify", "--rung"}};
   for (const auto& [command, option] : own) {
     const ProgramResult result = run(0, {command, "--help"});
     EXPECT_NE(result.out.find("hemicube " + command), std::string::npos) << result.out;
@@ -32,6 +36,24 @@ TEST_F(UsageTest, HelpOfACommandShowsItsOwnAndTheCommonOptions) {
           std::string("--json"), std::string("--quiet"), std::string("--hash-items")})
       EXPECT_NE(result.out.find(expected), std::string::npos) << command << " " << expected;
   }
+}
+
+// Catches: a command that came or went without a word in the README.
+TEST_F(UsageTest, TheReadmeListsTheCommandsOfHelp) {
+  std::set<std::string> of_help, of_readme;
+  bool is_command = false;
+  for (const std::string& line : lines_of(run(0, {"--help"}).out)) {
+    if (is_command && line.starts_with("  ") && line[2] != ' ')
+      of_help.insert(line.substr(2, line.find(' ', 2) - 2));
+    is_command = line.starts_with("  ") ? is_command : line.starts_with("Commands");
+  }
+  std::ifstream readme(HC_SOURCE_DIR "/README.md");
+  const std::string start = "    hemicube ";
+  for (std::string line; std::getline(readme, line);)
+    if (line.starts_with(start))
+      of_readme.insert(line.substr(start.size(), line.find(' ', start.size()) - start.size()));
+  EXPECT_EQ(of_help, std::set<std::string>(kCommands.begin(), kCommands.end()));
+  EXPECT_EQ(of_readme, of_help);
 }
 
 TEST_F(UsageTest, VersionIsOneLineOnStdout) {
@@ -60,7 +82,6 @@ TEST_F(UsageTest, CommandsOfOtherVersionsAreNotOffered) {
   const std::string scene = write_room();
   for (const std::string option : {"--rung", "--error", "--solver", "--adaptive"})
     expect_refused(2, {"solve", scene, option}, {option});
-  expect_refused(2, {"verify"}, {"'verify'"});
 }
 
 TEST_F(UsageTest, ValuesOutOfRangeAreNamedWithTheRange) {
