@@ -2,6 +2,7 @@
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
 #include "radiosity/cli/points_file.h"
+#include "radiosity/cli/requirements.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/cli/stopwatch.h"
 #include "radiosity/output/matrix_market.h"
@@ -43,6 +44,7 @@ Status run_formfactors(const CommandLine& line) {
   if (!line.output.empty() && !has_extension(line.output, ".mtx"))
     return Status::error(StatusCode::kInvalidArgument, "-o ", line.output,
                          ": must end in .mtx, for Matrix Market");
+  HC_TRY(check_applicable(line));
   Session session(line);
   HC_TRY(session.begin(line.input));
   std::vector<Receiver> points;
@@ -74,7 +76,7 @@ Status run_formfactors(const CommandLine& line) {
     print(session.report_text(certificate));
   else if (!line.quiet)
     print_summary(session, certificate, line.output);
-  return {};
+  return check_requirements(line.requirements, {certificate, closure_error(matrix)});
 }
 
 } // namespace hemicube::radiosity::cli

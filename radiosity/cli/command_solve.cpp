@@ -1,6 +1,7 @@
 #include "radiosity/cli/commands.h"
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/requirements.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/output/solution_files.h"
 
@@ -41,6 +42,7 @@ Status write_files(Session* session, const Solution& solution, const Certificate
 } // namespace
 
 Status run_solve(const CommandLine& line) {
+  HC_TRY(check_applicable(line));
   Session session(line);
   HC_TRY(session.begin(line.input));
   FileSet files;
@@ -61,7 +63,13 @@ Status run_solve(const CommandLine& line) {
     print(report);
   else if (!line.quiet)
     print_summary(session, certificate);
-  return solved;
+  const Status checked =
+      check_requirements(line.requirements, {certificate, closure_error(solution)});
+  if (solved.ok() || checked.ok())
+    return solved.ok() ? checked : solved;
+  flush_output();
+  print_message(solved.message());
+  return checked;
 }
 
 } // namespace hemicube::radiosity::cli

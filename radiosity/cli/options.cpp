@@ -2,6 +2,7 @@
 
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/option_values.h"
+#include "radiosity/cli/requirements.h"
 #include "raster/types.h"
 
 // The only file that includes CLI11: it costs seconds to compile.
@@ -166,6 +167,16 @@ private:
         "--no-black-irradiance", [this] { line_.options.black_irradiance = false; },
         "do not gather the irradiance of patches that reflect nothing");
     add_exposure(sub);
+    add_require(sub, true);
+  }
+
+  void add_require(CLI::App* sub, bool solves) {
+    add_value(
+        sub, "--require", "LIST",
+        concat("fail unless the result is such, separated by commas: ", known_conditions(solves)),
+        [this, solves](const std::string& text) {
+          line_.requirements = parse_requirements(text, solves);
+        });
   }
 
   void add_formfactors() {
@@ -179,6 +190,7 @@ private:
     add_path(sub, "--points", "FILE.csv",
              "rows of points instead of patches; columns x,y,z,nx,ny,nz, metres", &line_.points)
         ->excludes(rows);
+    add_require(sub, false);
   }
 
   void add_render() {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hemicube::radiosity::cli {
@@ -30,6 +31,17 @@ struct CameraOptions {
   bool is_any() const { return position || target || up || field_of_view || width || height; }
 };
 
+struct CheckedRun;
+
+/// One condition of `--require` (requirements.h): a quantity and the most it may be.
+struct Requirement {
+  std::string_view condition; ///< its name on the command line
+  std::string_view quantity;  ///< what messages call it
+  double bound;
+  /// Nothing if the run does not have the quantity.
+  std::optional<double> (*value)(const CheckedRun& run);
+};
+
 /// The command line, checked as far as it can be without the scene. Only the members a command has
 /// are filled for it.
 struct CommandLine {
@@ -48,6 +60,7 @@ struct CommandLine {
   RowSelection rows;                        ///< formfactors --rows
   std::string scene;                        ///< render --scene; empty = none
   CameraOptions camera;                     ///< render
+  std::vector<Requirement> requirements;    ///< solve, formfactors
   double exposure = 0;                      ///< solve, render; 0 = chosen
   std::optional<std::uint32_t> patch, face; ///< look: one of them
   bool whole_row = false;                   ///< look --all
