@@ -2,23 +2,15 @@
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
 #include "radiosity/cli/session.h"
+#include "radiosity/cli/solution_folder.h"
 #include "radiosity/output/image_writer.h"
-#include "radiosity/output/patch_table.h"
 #include "radiosity/output/vertex_radiosity.h"
-#include "radiosity/scene/text_cursor.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace hemicube::radiosity::cli {
 namespace {
-
-Status read_solution(const Session& session, Solution* solution) {
-  const std::string path = (std::filesystem::path(session.line.input) / "patches.csv").string();
-  std::string text;
-  HC_TRY(read_file(path, &text));
-  return read_patch_table(text, path, session.loaded.scene, session.loaded.patches, solution);
-}
 
 /// Draws the picture and writes it aside. @param exposure  receives the one that was used
 Status write_image(const Session& session, const Solution& solution, const Camera& camera,
@@ -50,26 +42,6 @@ void print_summary(const CommandLine& line, const Camera& camera, double exposur
   }
 }
 
-/// Where a solution says it comes from, unless the command line says it.
-Status read_origin(CommandLine* line) {
-  const std::string path = (std::filesystem::path(line->input) / "report.json").string();
-  std::string text;
-  HC_TRY(read_file(path, &text));
-  const nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
-  const nlohmann::json none;
-  const auto at = [&](const char* pointer) -> const nlohmann::json& {
-    const nlohmann::json::json_pointer place(pointer);
-    return report.contains(place) ? report.at(place) : none;
-  };
-  if (!at("/run/scene").is_string())
-    return Status::error(StatusCode::kBadScene, path,
-                         ": does not name the scene it is about; name it with --scene");
-  line->scene = at("/run/scene").get<std::string>();
-  if (line->max_edge == 0 && at("/result/options/max_edge").is_number())
-    line->max_edge = at("/result/options/max_edge").get<double>();
-  return {};
-}
-
 } // namespace
 
 Status run_render(const CommandLine& given) {
@@ -80,8 +52,11 @@ Status run_render(const CommandLine& given) {
   if (!is_solved && !line.scene.empty())
     return Status::error(StatusCode::kInvalidArgument, line.input,
                          ": is no folder with a solution, which --scene is for");
-  if (is_solved && line.scene.empty())
-    HC_TRY(read_origin(&line));
+  if (is_solved && line.scene.empty()) {
+    SolutionOrigin origin;
+    HC_TRY(read_origin(line.input, &origin));
+    HC_TRY(follow_origin(origin, &line));
+  }
   Session session(line);
   HC_TRY(session.begin(is_solved ? line.scene : line.input));
   Camera camera;

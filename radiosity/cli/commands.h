@@ -11,6 +11,7 @@ Status run_formfactors(const CommandLine& line);
 Status run_render(const CommandLine& line);
 Status run_info(const CommandLine& line);
 Status run_look(const CommandLine& line);
+Status run_probe(const CommandLine& line);
 Status run_verify(const CommandLine& line);
 
 } // namespace hemicube::radiosity::cli

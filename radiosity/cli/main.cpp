@@ -39,6 +39,8 @@ Status run_command(const CommandLine& line) {
     return run_info(line);
   case Command::kLook:
     return run_look(line);
+  case Command::kProbe:
+    return run_probe(line);
   case Command::kVerify:
     return run_verify(line);
   }

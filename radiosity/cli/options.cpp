@@ -64,6 +64,7 @@ public:
     add_render();
     add_info();
     add_look();
+    add_probe();
     add_verify();
     // Last, because commands inherit it.
     app_.footer("`hemicube COMMAND --help` tells more of a command.\n"
@@ -191,6 +192,17 @@ private:
              "rows of points instead of patches; columns x,y,z,nx,ny,nz, metres", &line_.points)
         ->excludes(rows);
     add_require(sub, false);
+  }
+
+  void add_probe() {
+    CLI::App* sub =
+        add_command(Command::kProbe, "probe", "Compute the irradiance at points, from a solution");
+    add_path(sub, "DIR", "", "a folder written by solve", &line_.input)->required();
+    add_path(sub, "--points", "FILE.csv", "columns x,y,z,nx,ny,nz, metres", &line_.points)
+        ->required();
+    add_path(sub, "-o", "FILE.csv", "file to write [none: the table on stdout]", &line_.output);
+    add_path(sub, "--scene", "SCENE",
+             "the scene DIR is the solution of [what its report.json names]", &line_.scene);
   }
 
   void add_render() {

@@ -13,7 +13,7 @@ namespace hemicube::radiosity::cli {
 /// The version of the program; the build defines it.
 inline constexpr const char* kVersion = HC_VERSION;
 
-enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook, kVerify };
+enum class Command { kSolve, kFormFactors, kRender, kInfo, kLook, kProbe, kVerify };
 
 /// Which rows of form factors are wanted, `--rows`.
 struct RowSelection {
@@ -53,12 +53,12 @@ struct CommandLine {
   double max_edge = 0;       ///< metres; 0 = as the scene says
   bool json = false;         ///< the report as one JSON object on stdout
   bool quiet = false;        ///< no progress, warnings or summary
-  std::string input;         ///< SCENE, or DIR|SCENE
+  std::string input;         ///< SCENE, DIR, or DIR|SCENE
   std::string output;        ///< -o; empty = none
 
-  std::string points;                       ///< formfactors --points; empty = rows of patches
+  std::string points;                       ///< formfactors, probe; empty = rows of patches
   RowSelection rows;                        ///< formfactors --rows
-  std::string scene;                        ///< render --scene; empty = none
+  std::string scene;                        ///< render, probe; empty = none
   CameraOptions camera;                     ///< render
   std::vector<Requirement> requirements;    ///< solve, formfactors
   double exposure = 0;                      ///< solve, render; 0 = chosen

@@ -9,8 +9,8 @@ namespace {
 
 using UsageTest = CliCase;
 
-const std::vector<std::string> kCommands = {"solve", "formfactors", "render", "info", "look",
-                                            "verify"};
+const std::vector<std::string> kCommands = {"solve", "formfactors", "render", "info",
+                                            "look",  "probe",       "verify"};
 
 TEST_F(UsageTest, HelpNamesEveryCommandAndExitStatus) {
   const ProgramResult result = run(0, {"--help"});
@@ -26,6 +26,7 @@ TEST_F(UsageTest, HelpOfACommandShowsItsOwnAndTheCommonOptions) {
                                                                 {"render", "--camera-position"},
                                                                 {"info", "SCENE"},
                                                                 {"look", "--patch"},
+                                                                {"probe", "--points"},
                                                                 {"verify", "--rung"}};
   for (const auto& [command, option] : own) {
     const ProgramResult result = run(0, {command, "--help"});
