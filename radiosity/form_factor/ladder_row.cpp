@@ -31,7 +31,7 @@ constexpr double kSharePerTarget = 1;
 constexpr double kUnseenPerTarget = 0.1;
 constexpr double kExactPart = 1.0 / 4096;
 
-constexpr std::uint32_t kManyPoints = 4096, kMostPoints = 1u << 20;
+constexpr std::uint32_t kManyPoints = 1u << 16, kMostPoints = 1u << 22;
 
 /// One point stands badly for a patch near by: a form factor f is wrong by about this times f^2.
 constexpr double kNearness = 0.25;

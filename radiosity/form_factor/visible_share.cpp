@@ -139,11 +139,12 @@ Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed
 }
 
 /// Adds the integral over a cell, whose points are `sums`, to `refined`.
+/// @param budget  points that may be spent; its quarters share it evenly
 Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
-                               Sums* refined, double* error) {
+                               double budget, Sums* refined, double* error) {
   const double part = sums.whole / all_;
   const double kink = sums.kink() / all_;
-  if ((kink <= tolerance && part <= largest_part_) || point_count_ >= point_limit_) {
+  if ((kink <= tolerance && part <= largest_part_) || budget < 16) {
     refined->whole += sums.whole;
     refined->visible += sums.visible;
     *error += kink;
@@ -178,7 +179,8 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
     const bool is_done =
         fates[k] != Fate::kOpen || (agrees && parts[k].whole <= largest_part_ * all_);
     if (!is_done) // errors of parts are independent: their squares add up
-      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, refined, error));
+      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, (budget - 16) / 4, refined,
+                    error));
     refined->whole += is_done ? parts[k].whole : 0;
     refined->visible += is_done ? parts[k].visible : 0;
   }
@@ -193,7 +195,6 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   to_ = &to;
   HC_TRY(blockers_.assign(blockers));
   const Range all_blockers{0, blockers.size()};
-  point_limit_ = point_count_ + effort.max_points;
   largest_part_ = effort.largest_part;
   // Points behind the target see nothing of it: the rule's points go where there is something.
   ConvexPolygon whole;
@@ -221,8 +222,8 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   Sums refined;
   double error = 0;
   for (int k = 0; k < cells; ++k)
-    HC_TRY(
-        refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, &refined, &error));
+    HC_TRY(refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, effort.max_points,
+                  &refined, &error));
   if (refined.whole > 0)
     share->share = refined.visible / refined.whole;
   share->error = error;

@@ -76,8 +76,8 @@ private:
   Status sample(const Cell& cell, Range blockers, bool keeps, Sums* sums);
   Status find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept);
   Status narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate);
-  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance, Sums* refined,
-                double* error);
+  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance, double budget,
+                Sums* refined, double* error);
 
   const Facet* receiver_ = nullptr;
   const Facet* to_ = nullptr;
@@ -87,7 +87,7 @@ private:
   double plane_tolerance_ = 0;
   double largest_part_ = 1;
   double all_ = 0; ///< the sum of `whole` over the first cells
-  std::uint64_t point_count_ = 0, point_limit_ = 0;
+  std::uint64_t point_count_ = 0;
   Buffer<Shadow> shadows_;           ///< of a point that keeps none
   Buffer<const Shadow*> in_the_way_; ///< of the point at hand
   VisiblePart visible_;
