@@ -29,7 +29,7 @@ Status select_rows(const RowSelection& selection, std::uint32_t patch_count,
 void print_summary(const Session& session, const Certificate& certificate,
                    const std::string& matrix_path) {
   const Certificate& c = certificate;
-  print(concat(counted(c.patches, "patch", "patches"), ", ", session.hemicubes_text(c), ", ",
+  print(concat(counted(c.patches, "patch", "patches"), ", ", session.rung_text(c), ", ",
                counted(c.nonzeros, "form factor", "form factors"), ", row sums ",
                rounded(c.row_sum.min), "..", rounded(c.row_sum.max), losses_text(c), "\n"));
   print(concat("form factors ", hex(c.form_factor_hash)));

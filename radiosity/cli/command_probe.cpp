@@ -40,7 +40,7 @@ std::string probe_table(const LoadedScene& loaded, const Solution& solution,
 }
 
 void print_summary(const Session& session, const Certificate& certificate, std::size_t points) {
-  print(concat(counted(points, "point", "points"), ", ", session.hemicubes_text(certificate), ", ",
+  print(concat(counted(points, "point", "points"), ", ", session.rung_text(certificate), ", ",
                counted(certificate.nonzeros, "form factor", "form factors"), "; file ",
                session.line.output, "\n"));
 }

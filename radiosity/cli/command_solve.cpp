@@ -12,11 +12,15 @@ namespace {
 
 void print_summary(const Session& session, const Certificate& certificate) {
   const Certificate& c = certificate;
-  print(concat(counted(c.patches, "patch", "patches"), ", ", session.hemicubes_text(c), ", ",
+  print(concat(counted(c.patches, "patch", "patches"), ", ", session.rung_text(c), ", ",
                counted(c.sweeps, "sweep", "sweeps"), ", residual ", rounded(c.residual),
                ", estimated error ",
                std::isfinite(c.estimated_error) ? rounded(c.estimated_error) : "unknown",
-               c.rounding_floor ? " (rounding allows no less)" : "", losses_text(c), "\n"));
+               c.rounding_floor ? " (rounding allows no less)" : "",
+               c.has_radiosity_error
+                   ? concat(" of the solver, ", rounded(c.radiosity_error), " of the form factors")
+                   : "",
+               losses_text(c), "\n"));
   print(concat("form factors ", hex(c.form_factor_hash), ", radiosity ", hex(c.radiosity_hash)));
   if (!session.line.output.empty())
     print(concat("; files in ", session.line.output));

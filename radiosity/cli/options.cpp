@@ -88,8 +88,8 @@ public:
     }
     if (line_.options.kernels == nullptr)
       line_.options.kernels = &raster::best_kernels();
-    // A selection of rows, to look at or to time: nothing is chosen by other rows unless asked for.
-    if (!line_.rows.is_all() && !error_is_given_)
+    // Some rows, to look at or to time: nothing is chosen by other rows unless asked for.
+    if ((rows_are_given_ || line_.command == Command::kLook) && !error_is_given_)
       line_.options.choose_rung = line_.options.choose_resolution = false;
   }
 
@@ -185,9 +185,12 @@ private:
                                 "Compute form factors: FILE.mtx (Matrix Market) and FILE.rows.csv");
     add_scene(sub, &line_);
     add_path(sub, "-o", "FILE.mtx", "file to write [none: print a summary only]", &line_.output);
-    CLI::Option* rows = add_value(
-        sub, "--rows", "SELECTION", "rows of these patches only: every:N or I,J,K (from 0) [all]",
-        [this](const std::string& text) { line_.rows = parse_rows(text); });
+    CLI::Option* rows = add_value(sub, "--rows", "SELECTION",
+                                  "rows of these patches only: every:N or I,J,K (from 0) [all]",
+                                  [this](const std::string& text) {
+                                    line_.rows = parse_rows(text);
+                                    rows_are_given_ = true;
+                                  });
     add_path(sub, "--points", "FILE.csv",
              "rows of points instead of patches; columns x,y,z,nx,ny,nz, metres", &line_.points)
         ->excludes(rows);
@@ -282,7 +285,7 @@ private:
   }
 
   CommandLine& line_;
-  bool error_is_given_ = false;
+  bool error_is_given_ = false, rows_are_given_ = false;
   std::shared_ptr<CLI::Formatter> formatter_ = std::make_shared<CLI::Formatter>();
   CLI::App app_{"Deterministic diffuse radiosity and form factors by hemicubes, on the CPU.",
                 "hemicube"};

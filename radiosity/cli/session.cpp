@@ -106,13 +106,18 @@ std::string Session::report_text(const Certificate& certificate) {
   return report_json(report_parts(certificate));
 }
 
-std::string Session::hemicubes_text(const Certificate& certificate) const {
-  std::string text = counted(certificate.hemicubes, "hemicube", "hemicubes");
-  if (run.form_factor_seconds > 0)
+std::string Session::rung_text(const Certificate& certificate) const {
+  const RungSetting& setting = certificate.setting;
+  std::string text = concat("rung ", rung_name(setting.rung));
+  if (setting.rung <= Rung::kArea)
+    text += concat(" at ", setting.resolution);
+  if (certificate.hemicubes != 0 && run.form_factor_seconds > 0)
     text += concat(" (",
                    static_cast<std::uint64_t>(static_cast<double>(certificate.hemicubes) /
                                               run.form_factor_seconds),
-                   "/s)");
+                   " hemicubes/s)");
+  if (certificate.has_form_factor_error)
+    text += concat(", form factor error ", rounded(certificate.form_factor_error));
   return text;
 }
 

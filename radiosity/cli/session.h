@@ -36,8 +36,8 @@ public:
   /// The text of report.json.
   std::string report_text(const Certificate& certificate);
 
-  /// "1234 hemicubes (567/s)".
-  std::string hemicubes_text(const Certificate& certificate) const;
+  /// "rung hemicube at 64 (567 hemicubes/s), form factor error 0.01".
+  std::string rung_text(const Certificate& certificate) const;
 
   const CommandLine& line;
   LoadedScene loaded;

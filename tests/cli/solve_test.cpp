@@ -49,7 +49,7 @@ TEST_F(SolveTest, WritesAllFilesAndNoOthers) {
   EXPECT_EQ(Json::parse(read("a/b/report.json"))["result"]["patches"], 6);
   const std::vector<std::string> summary = lines_of(result.out);
   ASSERT_EQ(summary.size(), 2u) << result.out;
-  EXPECT_TRUE(summary[0].starts_with("6 patches, 6 hemicubes")) << summary[0];
+  EXPECT_TRUE(summary[0].starts_with("6 patches, rung adaptive")) << summary[0];
   EXPECT_NE(summary[1].find(path("a/b")), std::string::npos) << summary[1];
 }
 

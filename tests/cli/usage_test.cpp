@@ -115,8 +115,10 @@ TEST_F(UsageTest, AnOptionGivenTwiceOrWithoutItsValueIsRefused) {
 
 TEST_F(UsageTest, CommonOptionsWorkBeforeAndAfterTheCommand) {
   const std::string scene = write_room();
-  const ProgramResult before = run(0, {"--resolution", "64", "--json", "solve", scene});
-  const ProgramResult after = run(0, {"solve", scene, "--json", "--resolution", "64"});
+  const ProgramResult before =
+      run(0, {"--rung", "area", "--resolution", "64", "--json", "solve", scene});
+  const ProgramResult after =
+      run(0, {"solve", scene, "--json", "--resolution", "64", "--rung", "area"});
   EXPECT_NE(before.out.find("\"resolution\": 64"), std::string::npos) << before.out;
   EXPECT_EQ(before.out.substr(0, before.out.find("\"run\"")),
             after.out.substr(0, after.out.find("\"run\"")));
