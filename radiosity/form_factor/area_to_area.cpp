@@ -28,13 +28,13 @@ double larger(double a, double b) {
 }
 
 /// Whether p comes first in an order that does not depend on which argument it was.
-bool comes_first(const ConvexPolygon& p, const ConvexPolygon& q) {
-  if (p.count != q.count)
-    return p.count < q.count;
-  for (int k = 0; k < p.count; ++k)
+bool comes_first(std::span<const Vec3> p, std::span<const Vec3> q) {
+  if (p.size() != q.size())
+    return p.size() < q.size();
+  for (std::size_t k = 0; k < p.size(); ++k)
     for (int axis = 0; axis < 3; ++axis)
-      if (p.corners[k][axis] != q.corners[k][axis])
-        return p.corners[k][axis] < q.corners[k][axis];
+      if (p[k][axis] != q[k][axis])
+        return p[k][axis] < q[k][axis];
   return true;
 }
 
@@ -46,7 +46,7 @@ struct Sides {
 
   Sides(const ConvexPolygon& polygon, const PreparedArea& base, double coordinate) {
     double reach = 0;
-    const Vec3 origin = base.polygon->corners[0];
+    const Vec3 origin = base.corners[0];
     for (int k = 0; k < polygon.count; ++k) {
       const Vec3 arm = polygon.corners[k] - origin;
       side[k] = glm::dot(base.normal, arm);
@@ -200,14 +200,15 @@ AreaIntegral exchange_ordered(const PreparedArea& p, const PreparedArea& q, doub
 /// A polygon without room for the corner that a cut adds, in two parts.
 AreaIntegral exchange_halves(const PreparedArea& whole, const PreparedArea& q,
                              double relative_error) {
-  const ConvexPolygon& p = *whole.polygon;
+  const ConvexPolygon p(whole.corners);
   AreaIntegral sum;
   for (int half = 0; half < 2; ++half) {
     ConvexPolygon part;
     const int first = half == 0 ? 0 : p.count / 2, last = half == 0 ? p.count / 2 : p.count;
     for (int k = first; k <= last; ++k)
       part.append(p.corners[k == p.count ? 0 : k]);
-    const AreaIntegral one = exchange_ordered(prepare_area(part, whole.normal), q, relative_error);
+    const AreaIntegral one =
+        exchange_ordered(prepare_area(part.span(), whole.normal), q, relative_error);
     sum.value += one.value;
     sum.error += one.error;
   }
@@ -217,7 +218,7 @@ AreaIntegral exchange_halves(const PreparedArea& whole, const PreparedArea& q,
 AreaIntegral exchange_ordered(const PreparedArea& of_p, const PreparedArea& of_q,
                               double relative_error) {
   const double coordinate = larger(of_p.coordinate, of_q.coordinate);
-  const ConvexPolygon &p = *of_p.polygon, &q = *of_q.polygon;
+  const ConvexPolygon p(of_p.corners), q(of_q.corners);
   const Sides p_sides(p, of_q, coordinate), q_sides(q, of_p, coordinate);
   if (!p_sides.any_front || !q_sides.any_front)
     return {};
@@ -265,7 +266,7 @@ AreaIntegral exchange_area(const PreparedArea& p, const PreparedArea& q,
                            double relative_error) noexcept {
   if (!(p.area > 0 && q.area > 0))
     return {};
-  const bool in_order = comes_first(*p.polygon, *q.polygon);
+  const bool in_order = comes_first(p.corners, q.corners);
   const PreparedArea &first = in_order ? p : q, &second = in_order ? q : p;
   AreaIntegral result;
   if (!far_exchange(first, second, relative_error, &result))
@@ -275,7 +276,8 @@ AreaIntegral exchange_area(const PreparedArea& p, const PreparedArea& q,
 
 AreaIntegral exchange_area(const ConvexPolygon& p, const Vec3& normal_p, const ConvexPolygon& q,
                            const Vec3& normal_q, double relative_error) noexcept {
-  return exchange_area(prepare_area(p, normal_p), prepare_area(q, normal_q), relative_error);
+  return exchange_area(prepare_area(p.span(), normal_p), prepare_area(q.span(), normal_q),
+                       relative_error);
 }
 
 } // namespace hemicube::radiosity

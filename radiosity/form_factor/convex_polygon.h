@@ -22,6 +22,11 @@ struct ConvexPolygon {
   Vec3 corners[kMaxCorners];
 
   ConvexPolygon() noexcept {} // the corners stay unset: these are made by the million
+  /// @param from  at most kMaxCorners
+  explicit ConvexPolygon(std::span<const Vec3> from) noexcept {
+    for (const Vec3& corner : from)
+      append(corner);
+  }
   ConvexPolygon(const ConvexPolygon& other) noexcept { *this = other; }
   ConvexPolygon& operator=(const ConvexPolygon& other) noexcept {
     count = other.count;

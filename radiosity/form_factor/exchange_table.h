@@ -12,6 +12,7 @@ struct PairExchange {
   float error = 0;           ///< estimated, in units of value
   float doubt = 0;           ///< what it might be wrong by, for the choice of rows to look at again
   bool is_estimated = false; ///< partly hidden: closure may scale it
+  bool is_mutual = true;     ///< the same for both rows, which share it
   double value = 0;          ///< m^2; of a point, the form factor itself
 };
 
@@ -21,10 +22,12 @@ struct ReceiverExchange {
   double area = 1;      ///< of the receiver, m^2; 1 for points
   double back_side = 0; ///< exchanged with back sides, m^2
   double back_side_error = 0;
+  bool is_rendered = false; ///< an item buffer says what is space and what back side
+  double space = 0;         ///< then; m^2
 };
 
-/// Each pair of patches once, with the one whose points were integrated over; found for both once
-/// all rows are there. In blocks of consecutive rows, one writer a block.
+/// Pairs of patches that say the same for both rows, each once, and what is a row's own. In blocks
+/// of consecutive rows, one writer a block.
 class ExchangeTable {
 public:
   static constexpr std::uint32_t kBlockRows = 8;
@@ -40,7 +43,7 @@ public:
 
   /// As it was appended.
   ReceiverExchange row(std::uint32_t index) const noexcept;
-  /// The pairs that other rows found with this one, by ascending row.
+  /// The mutual pairs that other rows found with this one, by ascending row.
   std::span<const PairExchange> others(std::uint32_t index) const noexcept {
     return others_.span().subspan(other_offsets_[index],
                                   other_offsets_[index + 1] - other_offsets_[index]);
@@ -48,8 +51,8 @@ public:
 
 private:
   struct RowEnd {
-    std::size_t pairs; ///< of the block up to and including this row
-    double area, back_side, back_side_error;
+    std::size_t pairs;         ///< of the block up to and including this row
+    ReceiverExchange exchange; ///< but for the pairs
   };
   struct Block {
     Buffer<PairExchange> pairs;

@@ -20,7 +20,7 @@ constexpr std::uint32_t kManyFaces = 2048;
 /// areas may be off by, relative.
 constexpr double kExactShare = 1e-6;
 constexpr double kExactIntegral = 1e-10;
-constexpr double kFineIntegral = 1e-5;
+constexpr double kFineIntegral = 1e-4;
 constexpr double kIntegralPerTarget = 2e-4;
 
 /// The errors of the shares of pairs are estimated from above and add up as squares.
@@ -40,13 +40,6 @@ constexpr double kOneView = 1, kUnseenShare = 0.03;
 
 /// Nanoseconds, about what they took once.
 constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 200;
-
-ConvexPolygon polygon_of(const Facet& facet) {
-  ConvexPolygon polygon;
-  for (const Vec3& corner : facet.corners)
-    polygon.append(corner);
-  return polygon;
-}
 
 raster::View view_of(const PatchSet& patches, const RowPlace& place) {
   return place.patch != RowPlace::kNoPatch ? hemicube_view(patches, place.patch)
@@ -68,21 +61,33 @@ Status LadderSetup::init(RowGeometry* geometry_in, const RungSetting& setting_in
                          const raster::Kernels& kernels, bool hash_items) {
   geometry = geometry_in;
   setting = setting_in;
-  HC_TRY(geometry_in->need_tree());
   if (setting.rung != Rung::kHemicube)
     HC_TRY(geometry_in->need_facets());
+  if (!needs_hemicubes())
+    return {};
+  HC_TRY(geometry_in->need_tree());
   return hemicube.init(geometry->tree(), setting.resolution, kernels, hash_items);
+}
+
+bool LadderSetup::needs_hemicubes() const noexcept {
+  if (setting.rung == Rung::kHemicube)
+    return true;
+  const SceneFacets& facets = geometry->facets();
+  return facets.face_count() > kManyFaces ||
+         (setting.rung <= Rung::kArea && facets.anything_hides());
 }
 
 double LadderSetup::integral_error() const noexcept {
   if (setting.rung == Rung::kExact)
     return kExactIntegral;
-  return setting.rung == Rung::kAdaptive ? std::min(kIntegralPerTarget * setting.target, 1e-4)
-                                         : kFineIntegral;
+  return setting.rung == Rung::kAdaptive
+             ? std::min(kIntegralPerTarget * setting.target, kFineIntegral)
+             : kFineIntegral;
 }
 
 Status LadderRow::init(const LadderSetup& setup) {
-  HC_TRY(hemicube_.init(setup.hemicube));
+  if (setup.needs_hemicubes())
+    HC_TRY(hemicube_.init(setup.hemicube));
   if (setup.setting.rung != Rung::kHemicube) {
     const std::size_t count = setup.geometry->patches().patch_count();
     HC_TRY(entries_.resize(count, {0, 0}));
@@ -138,7 +143,6 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
   const std::uint64_t tests = seen_.test_count(), points = integrator_.point_count();
   pairs_.clear();
   exchange_ = {};
-  rendered_ = false;
   if (!seen_faces_.empty())
     HC_TRY(mark_seen_faces(view, facts));
   const std::uint32_t own_face = on_patch ? facets().face_of(place.patch) : SeenTargets::kNoFace;
@@ -147,7 +151,7 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
     for (const PatchPiece& piece : facets().pieces_of(place.patch))
       HC_TRY(add_receiver(view, piece, own_face, own_only ? &piece : nullptr, facts));
   } else {
-    const PatchPiece eye{place.patch, 1, Facet::of({&view.eye, 1}, view.axis_z)};
+    const PatchPiece eye{place.patch, 1, Facet::of({&view.eye, 1}, view.axis_z), {}};
     HC_TRY(add_receiver(view, eye, own_face, nullptr, facts));
   }
   exchange_.pairs = pairs_.span();
@@ -185,20 +189,30 @@ Status LadderRow::mark_seen_faces(const raster::View& view, RowFacts* facts) {
 /// Adds what one piece of the receiver exchanges.
 Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& receiver,
                                std::uint32_t own_face, const PatchPiece* owner, RowFacts* facts) {
-  HC_TRY(seen_.find(facets(), receiver.facet, own_face, seen_faces_.span(), owner));
+  const bool by_pixels = setup_->setting.rung <= Rung::kArea;
+  // What an item buffer says is not the same for both rows of a pair: each asks its own.
+  HC_TRY(seen_.find(facets(), receiver.facet, own_face, seen_faces_.span(),
+                    by_pixels ? nullptr : owner));
   integrator_.set_receiver(receiver.facet);
-  if (setup_->setting.rung <= Rung::kArea)
+  if (by_pixels)
     for (const SeenTarget& target : seen_.targets())
-      rendered_ |= target.blocker_count != 0;
-  if (rendered_)
+      exchange_.is_rendered |= target.blocker_count != 0;
+  if (exchange_.is_rendered) {
     HC_TRY(render(view, facts));
+    exchange_.space = exchange_.area * space_;
+    exchange_.back_side = exchange_.area * back_side_;
+    exchange_.back_side_error = 0;
+  }
   for (const SeenTarget& target : seen_.targets()) {
-    if (target.is_back() && rendered_)
+    if (target.is_back() && exchange_.is_rendered)
       continue; // the item buffer shows them
+    const bool is_mutual = !by_pixels || target.blocker_count == 0;
+    if (is_mutual && !target.is_back() && owner != nullptr && !owns_pair(*owner, *target.piece))
+      continue;
     ConvexPolygon corners;
     const Facet facet =
         target.is_back() ? reversed(facets().face(target.face), &corners) : target.piece->facet;
-    const AreaIntegral whole = find_whole(receiver, facet);
+    const AreaIntegral whole = find_whole(receiver, target, facet);
     if (!(whole.value > 0))
       continue;
     VisibleShare share;
@@ -214,19 +228,22 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
       exchange_.back_side_error += error;
     } else if (value > 0 || doubt > 0) {
       HC_TRY(pairs_.push_back({target.piece->patch, static_cast<float>(error),
-                               static_cast<float>(doubt), target.blocker_count != 0, value}));
+                               static_cast<float>(doubt), target.blocker_count != 0, is_mutual,
+                               value}));
     }
   }
   return {};
 }
 
-AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const Facet& target) const {
-  const Facet& facet = receiver.facet;
-  if (is_point(facet))
-    return {point_to_polygon(facet.corners[0], facet.plane.normal, target.corners), 0};
-  const double accuracy = setup_->integral_error();
-  return exchange_area(polygon_of(facet), facet.plane.normal, polygon_of(target),
-                       target.plane.normal, accuracy);
+AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const SeenTarget& target,
+                                   const Facet& facet) const {
+  const Facet& from = receiver.facet;
+  if (is_point(from))
+    return {point_to_polygon(from.corners[0], from.plane.normal, facet.corners), 0};
+  return exchange_area(receiver.prepared,
+                       target.is_back() ? prepare_area(facet.corners, facet.plane.normal)
+                                        : target.piece->prepared,
+                       setup_->integral_error());
 }
 
 /// How much of a target gets past what may be in between.
@@ -280,19 +297,17 @@ Status LadderRow::assemble(const ReceiverExchange& own, std::span<const PairExch
                            RowView* row, RowFacts* facts) {
   touched_.clear();
   error_sum_ = error_squares_ = doubt_squares_ = 0;
-  if (!rendered_)
-    space_ = 0;
+  space_ = own.space / own.area;
   for (const auto pairs : {own.pairs, others})
     for (const PairExchange& pair : pairs)
       HC_TRY(add(pair, own.area));
-  if (!rendered_)
-    back_side_ = own.back_side / own.area;
+  back_side_ = own.back_side / own.area;
   const double back_side_error = own.back_side_error / own.area;
   error_sum_ += back_side_error;
   error_squares_ += back_side_error * back_side_error;
   facts->error = std::sqrt(error_squares_);
   facts->doubt = std::sqrt(doubt_squares_);
-  close(facts);
+  close(own.is_rendered, facts);
   *row = store();
   return {};
 }
@@ -321,7 +336,7 @@ void LadderRow::scale(double proven, double estimated) {
 /// Makes row + space + back side 1. What is proven stands; what is estimated shares one factor,
 /// unless there is none or the factor would say that the estimates are worthless: then all share
 /// it.
-void LadderRow::close(RowFacts* facts) {
+void LadderRow::close(bool is_rendered, RowFacts* facts) {
   std::sort(touched_.begin(), touched_.end());
   double proven = 0, estimated = 0;
   for (const std::uint32_t patch : touched_) {
@@ -329,7 +344,7 @@ void LadderRow::close(RowFacts* facts) {
     estimated += entries_[patch].estimated;
   }
   facts->raw_sum = proven + estimated;
-  if (!rendered_) {
+  if (!is_rendered) {
     // No item buffer says what is space. What is missing beyond all errors is.
     const double missing = 1 - (proven + estimated + back_side_);
     constexpr double kRounding = 0x1p-40;
@@ -337,12 +352,12 @@ void LadderRow::close(RowFacts* facts) {
     if (space_ != 0)
       return;
   }
-  const double lost = rendered_ ? space_ + back_side_ : 0;
-  const double fixed = rendered_ ? proven : proven + back_side_;
+  const double lost = is_rendered ? space_ + back_side_ : 0;
+  const double fixed = is_rendered ? proven : proven + back_side_;
   const double factor = estimated + lost > 0 ? (1 - fixed) / (estimated + lost) : 0;
   if (factor >= 0.5 && factor <= 2) {
     scale(1, factor);
-    if (rendered_) {
+    if (is_rendered) {
       space_ *= factor;
       back_side_ *= factor;
     }

@@ -22,7 +22,10 @@ struct LadderSetup {
               const raster::Kernels& kernels, bool hash_items);
 
   /// True if both rows of a pair of patches say the same of it, so that it need be found only once.
-  bool shares_pairs() const noexcept { return setting.rung >= Rung::kAdaptive; }
+  bool shares_pairs() const noexcept { return setting.rung >= Rung::kArea; }
+
+  /// False where geometry alone tells everything.
+  bool needs_hemicubes() const noexcept;
 
   /// Relative, of integrals over pairs with nothing in between.
   double integral_error() const noexcept;
@@ -80,7 +83,8 @@ private:
   Status mark_seen_faces(const raster::View& view, RowFacts* facts);
   Status add_receiver(const raster::View& view, const PatchPiece& receiver, std::uint32_t own_face,
                       const PatchPiece* owner, RowFacts* facts);
-  AreaIntegral find_whole(const PatchPiece& receiver, const Facet& target) const;
+  AreaIntegral find_whole(const PatchPiece& receiver, const SeenTarget& target,
+                          const Facet& facet) const;
   Status find_share(const raster::View& view, const PatchPiece& receiver, const SeenTarget& target,
                     const Facet& facet, double whole, VisibleShare* share, RowFacts* facts);
   Effort effort_for(double area, const SeenTarget& target, double whole) const;
@@ -89,7 +93,7 @@ private:
   Status render(const raster::View& view, RowFacts* facts);
   Status add(const PairExchange& pair, double area);
   void add_doubt(std::uint32_t patch, double doubt) noexcept;
-  void close(RowFacts* facts);
+  void close(bool is_rendered, RowFacts* facts);
   void scale(double proven, double estimated);
   RowView store();
 
@@ -105,8 +109,7 @@ private:
   Buffer<std::uint32_t> touched_; ///< patches with an entry
   double space_ = 0, back_side_ = 0;
   double error_sum_ = 0, error_squares_ = 0, doubt_squares_ = 0;
-  bool rendered_ = false; ///< space, back side and pixels_ come from an item buffer
-  Buffer<float> pixels_;  ///< [patch] its share of the hemicube; zero between rows
+  Buffer<float> pixels_; ///< [patch] its share of the hemicube; zero between rows
   Buffer<std::uint32_t> pixel_patches_;
   Buffer<std::uint8_t> seen_faces_; ///< [face]; empty: all are looked at
 

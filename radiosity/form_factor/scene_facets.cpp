@@ -13,9 +13,7 @@ constexpr std::uint32_t kMostComparedFaces = 1u << 15;
 constexpr double kLeastOverlap = 0x1p-30;
 
 bool share_area(const Facet& a, const Facet& b) {
-  ConvexPolygon common;
-  for (const Vec3& corner : a.corners)
-    common.append(corner);
+  ConvexPolygon common(a.corners);
   const std::size_t count = b.corners.size();
   for (std::size_t k = 0; k < count && !common.empty(); ++k) {
     const Vec3 edge = b.corners[k + 1 == count ? 0 : k + 1] - b.corners[k];
@@ -34,7 +32,11 @@ Status SceneFacets::build(const PatchSet& patches) {
   HC_TRY(fill_faces());
   HC_TRY(tree_.build(faces_));
   HC_TRY(find_blocking());
-  return find_overlaps();
+  HC_TRY(find_overlaps());
+  anything_hides_ = !overlaps_.empty();
+  for (const std::uint8_t can_block : can_block_)
+    anything_hides_ = anything_hides_ || can_block != 0;
+  return {};
 }
 
 Status SceneFacets::fill_pieces(const PatchSet& patches) {
@@ -70,6 +72,7 @@ Status SceneFacets::fill_pieces(const PatchSet& patches) {
     const auto corners =
         piece_corners_.span().subspan(ranges[k].begin, ranges[k].end - ranges[k].begin);
     piece.facet = Facet::of(corners, patches.normal[piece.patch]);
+    piece.prepared = prepare_area(corners, patches.normal[piece.patch]);
     // A plane through the centroid is as near to all corners of a warped patch as can be.
     piece.facet.plane.origin = patches.centre[piece.patch];
     piece.area = pieces_of(piece.patch).size() == 1 ? patches.area[piece.patch]

@@ -2,6 +2,7 @@
 
 #include "radiosity/form_factor/occluder_faces.h"
 #include "radiosity/form_factor/occluder_tree.h"
+#include "radiosity/form_factor/prepared_area.h"
 #include "radiosity/form_factor/shaft.h"
 #include "radiosity/mesh/patch_set.h"
 
@@ -13,6 +14,7 @@ struct PatchPiece {
   std::uint32_t patch = 0;
   double area = 0;
   Facet facet;
+  PreparedArea prepared;
 };
 
 /// The patches of a scene as facets, the faces they make up, and which of these can hide anything.
@@ -39,6 +41,9 @@ public:
 
   /// False for a face that has the whole scene on one side: nothing passes through it.
   bool can_block(std::uint32_t face) const noexcept { return can_block_[face] != 0; }
+
+  /// False if every pair of patches that face each other see each other whole.
+  bool anything_hides() const noexcept { return anything_hides_; }
 
   /// Faces in the plane of a face that cover some of the same points, ascending.
   std::span<const std::uint32_t> overlaps_of(std::uint32_t face) const noexcept {
@@ -67,6 +72,7 @@ private:
   Buffer<std::uint8_t> can_block_;
   Buffer<std::uint32_t> overlap_offsets_, overlaps_;
   double tolerance_ = 0;
+  bool anything_hides_ = false;
 };
 
 } // namespace hemicube::radiosity

@@ -148,16 +148,18 @@ void Shaft::add_planes(const Facet& edges_of, const Facet& corners_of) noexcept 
       for (const Vec3& corner : corners_of.corners)
         if (normal == Vec3(0, 0, 0) || glm::dot(normal, corner - from) > 0)
           normal = glm::cross(edge, corner - from) * turn;
-      const double length = glm::length(normal);
-      if (!(length > 0) || plane_count_ == kMaxPlanes)
-        continue;
-      const Plane plane{from, normal / length};
-      bool is_behind = true;
-      for (const Facet* facet : {&p_, &q_})
-        for (const Vec3& corner : facet->corners)
-          is_behind = is_behind && plane.side(corner) <= tolerance_;
-      if (is_behind)
-        planes_[plane_count_++] = plane;
+      // Most are not: lengths are compared squared until one is.
+      const double square = glm::dot(normal, normal);
+      const auto has_behind = [&](const Facet& facet) {
+        for (const Vec3& corner : facet.corners) {
+          const double side = glm::dot(normal, corner - from);
+          if (side > 0 && side * side > tolerance_ * tolerance_ * square)
+            return false;
+        }
+        return true;
+      };
+      if (square > 0 && plane_count_ < kMaxPlanes && has_behind(edges_of) && has_behind(corners_of))
+        planes_[plane_count_++] = {from, normal / std::sqrt(square)};
     }
   }
 }

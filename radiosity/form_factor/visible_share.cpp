@@ -197,9 +197,7 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   const Range all_blockers{0, blockers.size()};
   largest_part_ = effort.largest_part;
   // Points behind the target see nothing of it: the rule's points go where there is something.
-  ConvexPolygon whole;
-  for (const Vec3& corner : receiver_->corners)
-    whole.append(corner);
+  const ConvexPolygon whole(receiver_->corners);
   double side[ConvexPolygon::kMaxCorners];
   bool is_all_in_front = true;
   for (int k = 0; k < whole.count; ++k) {
