@@ -89,7 +89,8 @@ void print_text(const Session& session, const SceneFacts& facts) {
                             counted(session.run.threads, "thread", "threads"), ", ",
                             memory_text(facts.matrix_bytes), " of matrix (from ",
                             counted(facts.sample_rows, "sample row", "sample rows"), " of ",
-                            rounded(facts.nonzeros_per_row), " entries at resolution ",
+                            rounded(facts.nonzeros_per_row), " entries on rung ",
+                            rung_name(session.line.options.rung), ", resolution ",
                             session.line.options.resolution, ")"));
 }
 
