@@ -73,8 +73,8 @@ bool LadderSetup::needs_hemicubes() const noexcept {
   if (setting.rung == Rung::kHemicube)
     return true;
   const SceneFacets& facets = geometry->facets();
-  return facets.face_count() > kManyFaces ||
-         (setting.rung <= Rung::kArea && facets.anything_hides());
+  return facets.anything_hides() &&
+         (setting.rung <= Rung::kArea || facets.face_count() > SeenTargets::kMostBlockers);
 }
 
 double LadderSetup::integral_error() const noexcept {
@@ -97,7 +97,7 @@ Status LadderRow::init(const LadderSetup& setup) {
     HC_TRY(values_.resize(count));
     HC_TRY(integrator_.init(setup.geometry->facets().face_count(),
                             setup.geometry->facets().tolerance()));
-    if (setup.geometry->facets().face_count() > kManyFaces)
+    if (setup.needs_hemicubes() && setup.geometry->facets().face_count() > kManyFaces)
       HC_TRY(seen_faces_.resize(setup.geometry->facets().face_count()));
   }
   setup_ = &setup;
@@ -157,29 +157,56 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
   exchange_.pairs = pairs_.span();
   facts->work = kTestCost * (seen_.test_count() - tests) +
                 kPointCost * (integrator_.point_count() - points) + kPairCost * pairs_.size();
+  clear_pixels();
+  return {};
+}
+
+/// Renders hemicubes and keeps the mean of what they show.
+Status LadderRow::render(std::span<const raster::View> views, RowFacts* facts) {
+  clear_pixels();
+  const double part = 1 / static_cast<double>(views.size());
+  space_ = back_side_ = 0;
+  for (const raster::View& view : views) {
+    const RowView row = hemicube_.build(view);
+    for (std::size_t k = 0; k < row.columns.size(); ++k) {
+      float& pixels = pixels_[row.columns[k]];
+      if (pixels == 0)
+        HC_TRY(pixel_patches_.push_back(row.columns[k]));
+      pixels += static_cast<float>(part * row.scale * static_cast<double>(row.values[k]));
+    }
+    space_ += part * row.space;
+    back_side_ += part * row.back_side;
+    facts->item_hash ^= hemicube_.item_hash();
+    ++facts->hemicubes;
+  }
+  return {};
+}
+
+void LadderRow::clear_pixels() noexcept {
   for (const std::uint32_t patch : pixel_patches_)
     pixels_[patch] = 0;
   pixel_patches_.clear();
-  return {};
 }
 
-/// Renders the hemicube of the row, once.
-Status LadderRow::render(const raster::View& view, RowFacts* facts) {
-  if (facts->hemicubes != 0)
-    return {};
-  const RowView row = hemicube_.build(view);
-  facts->hemicubes = 1;
-  facts->item_hash = hemicube_.item_hash();
-  for (std::size_t k = 0; k < row.columns.size(); ++k)
-    pixels_[row.columns[k]] = static_cast<float>(row.scale * static_cast<double>(row.values[k]));
-  HC_TRY(pixel_patches_.assign(row.columns));
-  space_ = row.space;
-  back_side_ = row.back_side;
-  return {};
+/// Renders where a row needs it: at the centre on rungs that see from there, else at the points of
+/// a piece of the receiver.
+Status LadderRow::render_for(const raster::View& view, const PatchPiece& receiver,
+                             RowFacts* facts) {
+  views_[0] = view;
+  view_count_ = 1;
+  if (setup_->setting.rung > Rung::kArea && !is_point(receiver.facet)) {
+    Vec3 points[ShareIntegrator::kCellPoints];
+    view_count_ = ShareIntegrator::points_on(receiver.facet, points);
+    for (std::size_t k = 0; k < view_count_; ++k) {
+      views_[k] = hemicube_view(points[k], receiver.facet.plane.normal);
+      views_[k].skip = receiver.patch;
+    }
+  }
+  return render(std::span<const raster::View>(views_, view_count_), facts);
 }
 
 Status LadderRow::mark_seen_faces(const raster::View& view, RowFacts* facts) {
-  HC_TRY(render(view, facts));
+  HC_TRY(render({&view, 1}, facts));
   seen_faces_.fill(0);
   for (const std::uint32_t patch : pixel_patches_)
     seen_faces_[facets().face_of(patch)] = 1;
@@ -194,11 +221,12 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
   HC_TRY(seen_.find(facets(), receiver.facet, own_face, seen_faces_.span(),
                     by_pixels ? nullptr : owner));
   integrator_.set_receiver(receiver.facet);
-  if (by_pixels)
-    for (const SeenTarget& target : seen_.targets())
-      exchange_.is_rendered |= target.blocker_count != 0;
-  if (exchange_.is_rendered) {
-    HC_TRY(render(view, facts));
+  bool renders = false;
+  for (const SeenTarget& target : seen_.targets())
+    renders |= target.is_crowded || (by_pixels && !target.is_whole());
+  if (renders) {
+    HC_TRY(render_for(view, receiver, facts));
+    exchange_.is_rendered = true;
     exchange_.space = exchange_.area * space_;
     exchange_.back_side = exchange_.area * back_side_;
     exchange_.back_side_error = 0;
@@ -206,7 +234,7 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
   for (const SeenTarget& target : seen_.targets()) {
     if (target.is_back() && exchange_.is_rendered)
       continue; // the item buffer shows them
-    const bool is_mutual = !by_pixels || target.blocker_count == 0;
+    const bool is_mutual = !by_pixels || target.is_whole();
     if (is_mutual && !target.is_back() && owner != nullptr && !owns_pair(*owner, *target.piece))
       continue;
     ConvexPolygon corners;
@@ -216,8 +244,8 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
     if (!(whole.value > 0))
       continue;
     VisibleShare share;
-    if (target.blocker_count != 0)
-      HC_TRY(find_share(view, receiver, target, facet, whole.value, &share, facts));
+    if (!target.is_whole())
+      HC_TRY(find_share(receiver, target, facet, whole.value, &share, facts));
     const double value = whole.value * share.share;
     const double error = whole.error + whole.value * share.error;
     double doubt = whole.value * share.doubt;
@@ -228,8 +256,7 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
       exchange_.back_side_error += error;
     } else if (value > 0 || doubt > 0) {
       HC_TRY(pairs_.push_back({target.piece->patch, static_cast<float>(error),
-                               static_cast<float>(doubt), target.blocker_count != 0, is_mutual,
-                               value}));
+                               static_cast<float>(doubt), !target.is_whole(), is_mutual, value}));
     }
   }
   return {};
@@ -247,21 +274,26 @@ AreaIntegral LadderRow::find_whole(const PatchPiece& receiver, const SeenTarget&
 }
 
 /// How much of a target gets past what may be in between.
-Status LadderRow::find_share(const raster::View& view, const PatchPiece& receiver,
-                             const SeenTarget& target, const Facet& facet, double whole,
-                             VisibleShare* share, RowFacts* facts) {
-  if (setup_->setting.rung > Rung::kArea)
+Status LadderRow::find_share(const PatchPiece& receiver, const SeenTarget& target,
+                             const Facet& facet, double whole, VisibleShare* share,
+                             RowFacts* facts) {
+  if (setup_->setting.rung > Rung::kArea && !target.is_crowded)
     return integrate_share(receiver, target, facet, effort_for(receiver.area, target, whole),
                            share);
   const double resolution = setup_->hemicube.delta.resolution();
   const double pixel = 1 / (3 * resolution * resolution);
   const std::uint32_t patch = target.piece->patch;
   const bool has_one_piece = facets().pieces_of(patch).size() == 1;
-  const double from_eye = point_to_polygon(view.eye, view.axis_z, facet.corners);
-  if (has_one_piece && from_eye > kFewPixels * pixel) {
-    const double seen = static_cast<double>(pixels_[patch]) / from_eye;
+  double from_eyes = 0;
+  for (std::size_t k = 0; k < view_count_; ++k)
+    from_eyes += std::max(0.0, point_to_polygon(views_[k].eye, views_[k].axis_z, facet.corners) /
+                                   static_cast<double>(view_count_));
+  if (target.is_crowded || (has_one_piece && from_eyes > kFewPixels * pixel)) {
+    const double seen = from_eyes > 0 ? static_cast<double>(pixels_[patch]) / from_eyes : 0;
     share->share = seen < 1 ? seen : 1;
     share->doubt = kUnseenShare + kOneView * share->share * (1 - share->share);
+    if (target.is_crowded)
+      share->error = share->doubt / 2;
     return {};
   }
   HC_TRY(integrate_share(receiver, target, facet, {1, 1, 1}, share));

@@ -85,12 +85,14 @@ private:
                       const PatchPiece* owner, RowFacts* facts);
   AreaIntegral find_whole(const PatchPiece& receiver, const SeenTarget& target,
                           const Facet& facet) const;
-  Status find_share(const raster::View& view, const PatchPiece& receiver, const SeenTarget& target,
-                    const Facet& facet, double whole, VisibleShare* share, RowFacts* facts);
+  Status find_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
+                    double whole, VisibleShare* share, RowFacts* facts);
   Effort effort_for(double area, const SeenTarget& target, double whole) const;
   Status integrate_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
                          const Effort& effort, VisibleShare* share);
-  Status render(const raster::View& view, RowFacts* facts);
+  Status render(std::span<const raster::View> views, RowFacts* facts);
+  Status render_for(const raster::View& view, const PatchPiece& receiver, RowFacts* facts);
+  void clear_pixels() noexcept;
   Status add(const PairExchange& pair, double area);
   void add_doubt(std::uint32_t patch, double doubt) noexcept;
   void close(bool is_rendered, RowFacts* facts);
@@ -109,6 +111,8 @@ private:
   Buffer<std::uint32_t> touched_; ///< patches with an entry
   double space_ = 0, back_side_ = 0;
   double error_sum_ = 0, error_squares_ = 0, doubt_squares_ = 0;
+  raster::View views_[ShareIntegrator::kCellPoints]; ///< that pixels_ were rendered from
+  std::size_t view_count_ = 0;
   Buffer<float> pixels_; ///< [patch] its share of the hemicube; zero between rows
   Buffer<std::uint32_t> pixel_patches_;
   Buffer<std::uint8_t> seen_faces_; ///< [face]; empty: all are looked at

@@ -51,7 +51,7 @@ Status SeenTargets::gather(const SceneFacets& scene, Shaft* shaft, std::uint32_t
     *is_hidden = verdict == Shaft::Verdict::kBlocksAll;
     if (verdict == Shaft::Verdict::kMayBlock)
       status = between_.push_back(other);
-    return status.ok() && !*is_hidden;
+    return status.ok() && !*is_hidden && between_.size() <= kMostBetween;
   });
   return status;
 }
@@ -90,7 +90,8 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
   target.piece = &piece;
   target.face = face;
   target.first_blocker = blockers_.size();
-  if (!between_.empty()) {
+  target.is_crowded = between_.size() > kMostBetween;
+  if (!between_.empty() && !target.is_crowded) {
     Shaft shaft(receiver, piece.facet, tolerance);
     for (const std::uint32_t other : between_) {
       ++test_count_;
@@ -111,8 +112,19 @@ Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, s
         if (copy < piece.patch)
           for (const PatchPiece& part : scene.pieces_of(copy))
             HC_TRY(blockers_.push_back({&part.facet, other, true}));
-  target.blocker_count = blockers_.size() - target.first_blocker;
-  return targets_.push_back(target);
+  return add_target(&target);
+}
+
+/// Ends a target whose blockers are the last ones.
+Status SeenTargets::add_target(SeenTarget* target) {
+  target->blocker_count = blockers_.size() - target->first_blocker;
+  if (target->is_crowded || target->blocker_count > kMostBlockers) {
+    target->is_crowded = true;
+    target->blocker_count = 0;
+    while (blockers_.size() > target->first_blocker)
+      blockers_.pop_back();
+  }
+  return targets_.push_back(*target);
 }
 
 Status SeenTargets::find_back(const SceneFacets& scene, const Facet& receiver, std::uint32_t face) {
@@ -132,8 +144,7 @@ Status SeenTargets::find_back(const SceneFacets& scene, const Facet& receiver, s
   for (const std::uint32_t other : scene.overlaps_of(face))
     if (glm::dot(scene.face(other).plane.normal, back.plane.normal) > 0 || other < face)
       HC_TRY(blockers_.push_back({&scene.face(other), other, true}));
-  target.blocker_count = blockers_.size() - target.first_blocker;
-  return targets_.push_back(target);
+  return add_target(&target);
 }
 
 } // namespace hemicube::radiosity

@@ -17,6 +17,8 @@ struct SeenTarget {
   std::uint32_t face = 0;
   bool is_back() const noexcept { return piece == nullptr; }
   std::size_t first_blocker = 0, blocker_count = 0; ///< none: provably seen whole
+  bool is_crowded = false; ///< more may be in between than is worth looking at one by one
+  bool is_whole() const noexcept { return blocker_count == 0 && !is_crowded; }
 };
 
 /// Finds what a receiver may see, by geometry alone. One per worker.
@@ -40,6 +42,8 @@ public:
   std::uint64_t test_count() const noexcept { return test_count_; }
 
   static constexpr std::uint32_t kNoFace = 0xffffffffu;
+  /// Between two patches, and between a receiver and a face of many.
+  static constexpr std::size_t kMostBlockers = 64, kMostBetween = 512;
 
 private:
   Status find_front(const SceneFacets& scene, const Facet& receiver, std::uint32_t face);
@@ -47,6 +51,7 @@ private:
   Status gather(const SceneFacets& scene, Shaft* shaft, std::uint32_t face, bool* is_hidden);
   Status add_piece(const SceneFacets& scene, const Facet& receiver, std::uint32_t face,
                    const PatchPiece& piece);
+  Status add_target(SeenTarget* target);
 
   Buffer<SeenTarget> targets_;
   Buffer<Blocker> blockers_;

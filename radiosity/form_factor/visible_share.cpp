@@ -53,6 +53,19 @@ int ShareIntegrator::split(const ConvexPolygon& polygon, Vec3 (*cells)[4]) noexc
   return count;
 }
 
+std::size_t ShareIntegrator::points_on(const Facet& facet, Vec3 (&points)[kCellPoints]) noexcept {
+  Vec3 cells[kMaxCells][4];
+  const ConvexPolygon polygon(facet.corners);
+  if (polygon.count > 4) {
+    points[0] = facet.centre;
+    return 1;
+  }
+  split(polygon, cells);
+  for (int k = 0; k < kCellPoints; ++k)
+    points[k] = spot_of(cells[0], kPoints[k][0], kPoints[k][1]).point;
+  return kCellPoints;
+}
+
 void ShareIntegrator::set_receiver(const Facet& receiver) noexcept {
   receiver_ = &receiver;
   for (KeptShadows& kept : kept_) {

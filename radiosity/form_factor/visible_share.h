@@ -40,6 +40,12 @@ public:
   /// The same for a receiver that is a single point.
   Status find_at_point(const Facet& to, std::span<const Blocker> blockers, VisibleShare* share);
 
+  static constexpr int kCellPoints = 4;
+
+  /// The points that stand for a facet where it is looked at as a whole.
+  /// @return how many: kCellPoints for a quadrilateral or triangle, else 1, its centre
+  static std::size_t points_on(const Facet& facet, Vec3 (&points)[kCellPoints]) noexcept;
+
   /// Points spent since this was made.
   std::uint64_t point_count() const noexcept { return point_count_; }
 
@@ -56,7 +62,6 @@ private:
     /// About how far a kink of the integrand between the points moves the sum.
     double kink() const noexcept { return most > least ? 0.125 * (most - least) * whole : 0; }
   };
-  static constexpr int kCellPoints = 4;
   static constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
 
   /// Shadows that were asked for at one of the receiver's own points.
