@@ -12,27 +12,6 @@ namespace {
 /// Below this many pixels of a patch, their count says little about how much of it is seen.
 constexpr double kFewPixels = 16;
 
-/// Scenes of more faces are looked at through an item buffer first: of what it does not show, the
-/// geometry is not asked.
-constexpr std::uint32_t kManyFaces = 2048;
-
-/// What rung exact leaves of the visible share of a pair, and what integrals over unobstructed
-/// areas may be off by, relative.
-constexpr double kExactShare = 1e-6;
-constexpr double kExactIntegral = 1e-10;
-constexpr double kFineIntegral = 1e-4;
-constexpr double kIntegralPerTarget = 2e-4;
-
-/// The errors of the shares of pairs are estimated from above and add up as squares.
-constexpr double kSharePerTarget = 1;
-
-/// Cells that carry more than this of a form factor, or of the integral on rung exact, are always
-/// cut: what their points do not show must not matter.
-constexpr double kUnseenPerTarget = 0.1;
-constexpr double kExactPart = 1.0 / 4096;
-
-constexpr std::uint32_t kManyPoints = 1u << 16, kMostPoints = 1u << 22;
-
 /// One point stands badly for a patch near by: a form factor f is wrong by about this times f^2.
 constexpr double kNearness = 0.25;
 /// A visible share s that was seen from one point may be wrong by this times s (1 - s), and more.
@@ -46,44 +25,17 @@ raster::View view_of(const PatchSet& patches, const RowPlace& place) {
                                            : hemicube_view(place.position, place.normal);
 }
 
+/// Of the areas of a pair; with it the larger of its two form factors, the same for both rows.
+double smaller_area(const PatchPiece& receiver, const SeenTarget& target) {
+  return !target.is_back() && target.piece->area < receiver.area ? target.piece->area
+                                                                 : receiver.area;
+}
+
 bool is_point(const Facet& receiver) {
   return receiver.corners.size() == 1;
 }
 
 } // namespace
-
-const char* rung_name(Rung rung) noexcept {
-  constexpr const char* kNames[] = {"hemicube", "analytic", "area", "adaptive", "exact"};
-  return kNames[static_cast<int>(rung)];
-}
-
-Status LadderSetup::init(RowGeometry* geometry_in, const RungSetting& setting_in,
-                         const raster::Kernels& kernels, bool hash_items) {
-  geometry = geometry_in;
-  setting = setting_in;
-  if (setting.rung != Rung::kHemicube)
-    HC_TRY(geometry_in->need_facets());
-  if (!needs_hemicubes())
-    return {};
-  HC_TRY(geometry_in->need_tree());
-  return hemicube.init(geometry->tree(), setting.resolution, kernels, hash_items);
-}
-
-bool LadderSetup::needs_hemicubes() const noexcept {
-  if (setting.rung == Rung::kHemicube)
-    return true;
-  const SceneFacets& facets = geometry->facets();
-  return facets.anything_hides() &&
-         (setting.rung <= Rung::kArea || facets.face_count() > SeenTargets::kMostBlockers);
-}
-
-double LadderSetup::integral_error() const noexcept {
-  if (setting.rung == Rung::kExact)
-    return kExactIntegral;
-  return setting.rung == Rung::kAdaptive
-             ? std::min(kIntegralPerTarget * setting.target, kFineIntegral)
-             : kFineIntegral;
-}
 
 Status LadderRow::init(const LadderSetup& setup) {
   if (setup.needs_hemicubes())
@@ -97,7 +49,7 @@ Status LadderRow::init(const LadderSetup& setup) {
     HC_TRY(values_.resize(count));
     HC_TRY(integrator_.init(setup.geometry->facets().face_count(),
                             setup.geometry->facets().tolerance()));
-    if (setup.needs_hemicubes() && setup.geometry->facets().face_count() > kManyFaces)
+    if (setup.looks_first())
       HC_TRY(seen_faces_.resize(setup.geometry->facets().face_count()));
   }
   setup_ = &setup;
@@ -278,8 +230,8 @@ Status LadderRow::find_share(const PatchPiece& receiver, const SeenTarget& targe
                              const Facet& facet, double whole, VisibleShare* share,
                              RowFacts* facts) {
   if (setup_->setting.rung > Rung::kArea && !target.is_crowded)
-    return integrate_share(receiver, target, facet, effort_for(receiver.area, target, whole),
-                           share);
+    return integrate_share(receiver, target, facet,
+                           setup_->effort(whole / smaller_area(receiver, target)), share);
   const double resolution = setup_->hemicube.delta.resolution();
   const double pixel = 1 / (3 * resolution * resolution);
   const std::uint32_t patch = target.piece->patch;
@@ -299,17 +251,6 @@ Status LadderRow::find_share(const PatchPiece& receiver, const SeenTarget& targe
   HC_TRY(integrate_share(receiver, target, facet, {1, 1, 1}, share));
   facts->subpixel_patches += pixels_[patch] == 0 && share->share > 0 ? 1 : 0;
   return {};
-}
-
-/// The same for both rows of a pair.
-Effort LadderRow::effort_for(double area, const SeenTarget& target, double whole) const {
-  if (setup_->setting.rung == Rung::kExact)
-    return {kExactShare, kExactPart, kMostPoints};
-  // The larger of the two form factors of the pair.
-  const double smaller = !target.is_back() && target.piece->area < area ? target.piece->area : area;
-  const double largest = whole / smaller;
-  return {kSharePerTarget * setup_->setting.target,
-          kUnseenPerTarget * setup_->setting.target / largest, kManyPoints};
 }
 
 Status LadderRow::integrate_share(const PatchPiece& receiver, const SeenTarget& target,

@@ -2,34 +2,10 @@
 
 #include "radiosity/form_factor/area_to_area.h"
 #include "radiosity/form_factor/exchange_table.h"
-#include "radiosity/form_factor/row_builder.h"
-#include "radiosity/form_factor/row_geometry.h"
-#include "radiosity/form_factor/rung.h"
+#include "radiosity/form_factor/ladder_setup.h"
 #include "radiosity/form_factor/seen_patches.h"
-#include "radiosity/form_factor/visible_share.h"
 
 namespace hemicube::radiosity {
-
-/// What all rows of a scene share on any rung. Built once, read by every worker.
-struct LadderSetup {
-  RungSetting setting;
-  const RowGeometry* geometry = nullptr;
-  std::span<const double> light; ///< [patch] guess of what it sends out; may be empty
-  RowSetup hemicube;
-
-  /// @param geometry_in  outlives this; what the rung needs is built
-  Status init(RowGeometry* geometry_in, const RungSetting& setting_in,
-              const raster::Kernels& kernels, bool hash_items);
-
-  /// True if both rows of a pair of patches say the same of it, so that it need be found only once.
-  bool shares_pairs() const noexcept { return setting.rung >= Rung::kArea; }
-
-  /// False where geometry alone tells everything.
-  bool needs_hemicubes() const noexcept;
-
-  /// Relative, of integrals over pairs with nothing in between.
-  double integral_error() const noexcept;
-};
 
 /// Where a row is computed: on a patch, or at a point.
 struct RowPlace {
@@ -87,7 +63,6 @@ private:
                           const Facet& facet) const;
   Status find_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
                     double whole, VisibleShare* share, RowFacts* facts);
-  Effort effort_for(double area, const SeenTarget& target, double whole) const;
   Status integrate_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
                          const Effort& effort, VisibleShare* share);
   Status render(std::span<const raster::View> views, RowFacts* facts);
