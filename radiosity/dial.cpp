@@ -17,7 +17,7 @@ constexpr std::uint32_t kResolutions[] = {64, 128, 256, 512};
 /// The exact rows are this many times more exact than what is wanted, as far as rung adaptive goes:
 /// its errors are about a hundredth of its target.
 double exact_target(double wanted) {
-  const double target = 3 * wanted;
+  const double target = 10 * wanted;
   return target > 0.1 ? 0.1 : target < 0.001 ? 0.001 : target;
 }
 

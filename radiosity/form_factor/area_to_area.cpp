@@ -18,6 +18,8 @@ constexpr double kRounding = 0x1p-53;
 
 // Nanoseconds, roughly: what the methods' parts take.
 constexpr double kKernelCost = 1.1, kLambertEdgeCost = 20, kClosedFormCost = 150, kGradedCost = 600;
+/// Of what comes before the method, and of the quick way for pairs well apart.
+constexpr double kOverhead = 400, kQuickCost = 150;
 /// Quadrature cheaper than this is taken without a look at the other methods.
 constexpr double kCheap = 300;
 /// Relative errors below this are not worth splitting a polygon.
@@ -149,6 +151,7 @@ AreaIntegral integrate_halves(const AreaShape& p, const AreaShape& q, double rel
                                    : integrate(other, part, relative_error, splits + 1);
     sum.value += one.value;
     sum.error += one.error;
+    sum.work += one.work;
   }
   return sum;
 }
@@ -158,7 +161,7 @@ AreaIntegral integrate(const AreaShape& p, const AreaShape& q, double relative_e
   double best = both.evaluations * kKernelCost;
   if (best <= kCheap) {
     const double value = tensor_exchange(p, q, both);
-    return {value, value * (both.bound + 16 * kRounding)};
+    return {value, value * (both.bound + 16 * kRounding), best + kOverhead};
   }
   const Vec3 between = q.centre - p.centre;
   const double rough = rough_value(p, q, glm::dot(between, between));
@@ -181,18 +184,20 @@ AreaIntegral integrate(const AreaShape& p, const AreaShape& q, double relative_e
     const double error = sum.error + 8 * kRounding * sum.magnitude;
     if (error > 16 * larger(relative_error, kFinest) * sum.value && splits < kMaxSplits)
       return integrate_halves(p, q, relative_error, splits);
-    return {larger(sum.value, 0), error};
+    return {larger(sum.value, 0), error, edges_cost + kOverhead};
   }
   if (p_cost == best) {
     const double value = larger(outer_exchange(p, q, on_p), 0);
-    return {value, value * (on_p.bound + 16 * kRounding) + 4 * kRounding * p.area};
+    return {value, value * (on_p.bound + 16 * kRounding) + 4 * kRounding * p.area,
+            p_cost + kOverhead};
   }
   if (q_cost == best) {
     const double value = larger(outer_exchange(q, p, on_q), 0);
-    return {value, value * (on_q.bound + 16 * kRounding) + 4 * kRounding * q.area};
+    return {value, value * (on_q.bound + 16 * kRounding) + 4 * kRounding * q.area,
+            q_cost + kOverhead};
   }
   const double value = tensor_exchange(p, q, both);
-  return {value, value * (both.bound + 16 * kRounding)};
+  return {value, value * (both.bound + 16 * kRounding), best + kOverhead};
 }
 
 AreaIntegral exchange_ordered(const PreparedArea& p, const PreparedArea& q, double relative_error);
@@ -211,6 +216,7 @@ AreaIntegral exchange_halves(const PreparedArea& whole, const PreparedArea& q,
         exchange_ordered(prepare_area(part.span(), whole.normal), q, relative_error);
     sum.value += one.value;
     sum.error += one.error;
+    sum.work += one.work;
   }
   return sum;
 }
@@ -257,7 +263,7 @@ AreaIntegral exchange_ordered(const PreparedArea& of_p, const PreparedArea& of_q
   measure_height(&shape_q, {shape_p.polygon.corners[0], of_p.normal});
   const AreaIntegral local = integrate(shape_p, shape_q, relative_error, 0);
   const double square = unit_length * unit_length;
-  return {local.value * square, local.error * square};
+  return {local.value * square, local.error * square, local.work};
 }
 
 } // namespace
@@ -270,7 +276,8 @@ AreaIntegral exchange_area(const PreparedArea& p, const PreparedArea& q,
   const PreparedArea &first = in_order ? p : q, &second = in_order ? q : p;
   AreaIntegral result;
   if (!far_exchange(first, second, relative_error, &result))
-    result = exchange_ordered(first, second, relative_error);
+    return exchange_ordered(first, second, relative_error);
+  result.work = kQuickCost;
   return result;
 }
 

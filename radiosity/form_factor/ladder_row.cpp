@@ -18,7 +18,7 @@ constexpr double kNearness = 0.25;
 constexpr double kOneView = 1, kUnseenShare = 0.03;
 
 /// Nanoseconds, about what they took once.
-constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 200;
+constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 60;
 
 raster::View view_of(const PatchSet& patches, const RowPlace& place) {
   return place.patch != RowPlace::kNoPatch ? hemicube_view(patches, place.patch)
@@ -93,6 +93,7 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
   const raster::View view = view_of(setup_->geometry->patches(), place);
   const bool on_patch = place.patch != RowPlace::kNoPatch;
   const std::uint64_t tests = seen_.test_count(), points = integrator_.point_count();
+  integral_work_ = 0;
   pairs_.clear();
   exchange_ = {};
   if (!seen_faces_.empty())
@@ -108,7 +109,8 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
   }
   exchange_.pairs = pairs_.span();
   facts->work = kTestCost * (seen_.test_count() - tests) +
-                kPointCost * (integrator_.point_count() - points) + kPairCost * pairs_.size();
+                kPointCost * (integrator_.point_count() - points) + kPairCost * pairs_.size() +
+                static_cast<std::uint64_t>(integral_work_);
   clear_pixels();
   return {};
 }
@@ -193,6 +195,7 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
     const Facet facet =
         target.is_back() ? reversed(facets().face(target.face), &corners) : target.piece->facet;
     const AreaIntegral whole = find_whole(receiver, target, facet);
+    integral_work_ += whole.work;
     if (!(whole.value > 0))
       continue;
     VisibleShare share;

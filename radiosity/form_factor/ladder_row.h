@@ -81,6 +81,7 @@ private:
   VisiblePart visible_;
 
   Buffer<PairExchange> pairs_;
+  double integral_work_ = 0;
   ReceiverExchange exchange_;     ///< of the place at hand
   Buffer<Entry> entries_;         ///< [patch] zero between rows
   Buffer<std::uint32_t> touched_; ///< patches with an entry
