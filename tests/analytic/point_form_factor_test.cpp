@@ -3,9 +3,9 @@
 
 #include "radiosity/hemicube/five_views.h"
 #include "radiosity/parallel/thread_pool.h"
+#include "tests/support/form_factor_cases.h"
 #include "tests/support/lambert.h"
 #include "tests/support/one_point.h"
-#include "tests/support/reference.h"
 #include "tests/support/solved.h"
 
 #include <gtest/gtest.h>
@@ -22,52 +22,6 @@ constexpr double kStorage = 1e-7;
 /// ... made of counts of 2^-48.
 constexpr double kCount = 1e-14;
 
-std::vector<nlohmann::json> cases(bool points) {
-  std::vector<nlohmann::json> selected;
-  const nlohmann::json all = reference_json("formfactors.json");
-  for (const nlohmann::json& one : all["cases"])
-    if ((one["P1"].size() < 3) == points)
-      selected.push_back(one);
-  return selected;
-}
-
-/// A case as patches: P1, P2, then each blocker once per side.
-struct CasePatches {
-  PatchSet patches;
-  std::vector<std::vector<Vec3>> blockers;
-
-  explicit CasePatches(const nlohmann::json& one) {
-    SceneBuilder builder;
-    const std::uint32_t grey = builder.material("grey", 0.5, 1);
-    builder.face(grey, points_of(one["P1"]));
-    builder.face(grey, points_of(one["P2"]));
-    if (one.contains("blockers"))
-      for (const auto& blocker : one["blockers"]) {
-        const auto corners = points_of(blocker.is_object() ? blocker["vertices"] : blocker);
-        builder.face(grey, corners);
-        builder.face(grey, std::vector<Vec3>(corners.rbegin(), corners.rend()));
-        blockers.push_back(corners);
-      }
-    patches = patches_of(builder.finish());
-  }
-};
-
-/// P2 of a case with a point, wound so that the point sees its front. One case of the data
-/// (pt_general_tri) shows the point the back of P2; its value is that of the triangle turned over.
-std::vector<Vec3> facing_polygon(const nlohmann::json& one) {
-  auto polygon = points_of(one["P2"]);
-  if (lambert_form_factor(point_of(one["P1"][0]), point_of(one["normal1"]), polygon) == 0)
-    std::reverse(polygon.begin(), polygon.end());
-  return polygon;
-}
-
-double entry(const radiosity::RowView& row, std::uint32_t column) {
-  for (std::size_t k = 0; k < row.columns.size(); ++k)
-    if (row.columns[k] == column)
-      return row.scale * static_cast<double>(row.values[k]);
-  return 0;
-}
-
 /// The bound for a polygon and whatever stands before it.
 double bound_of(const raster::View& view, std::span<const Vec3> polygon,
                 std::span<const std::vector<Vec3>> blockers, std::uint32_t resolution) {
@@ -79,7 +33,7 @@ double bound_of(const raster::View& view, std::span<const Vec3> polygon,
 
 // The formula of the tests themselves, against the 20-digit references.
 TEST(Lambert, FormulaAgreesWithTheReference) {
-  for (const nlohmann::json& one : cases(true)) {
+  for (const nlohmann::json& one : form_factor_cases(true)) {
     const double exact =
         lambert_form_factor(point_of(one["P1"][0]), point_of(one["normal1"]), facing_polygon(one));
     const double expected = one["F12"];
@@ -90,7 +44,7 @@ TEST(Lambert, FormulaAgreesWithTheReference) {
 
 // Catches: rows at points in a wrong frame; everything the row of a patch can have wrong.
 TEST(PointFormFactors, AreThoseOfTheReferenceUpToPixels) {
-  for (const nlohmann::json& one : cases(true)) {
+  for (const nlohmann::json& one : form_factor_cases(true)) {
     const std::string name = one["name"];
     const radiosity::Receiver receiver{point_of(one["P1"][0]), point_of(one["normal1"])};
     const std::vector<Vec3> front = facing_polygon(one);
@@ -131,7 +85,7 @@ TEST(PairFormFactors, AreThePointFormFactorsUpToPixels) {
   for (const std::uint32_t resolution : {64u, 256u, 1024u}) {
     double squares = 0, largest = 0;
     int count = 0;
-    for (const nlohmann::json& one : cases(false)) {
+    for (const nlohmann::json& one : form_factor_cases(false)) {
       const CasePatches made(one);
       radiosity::Options options;
       options.resolution = resolution;
