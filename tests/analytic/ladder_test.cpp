@@ -4,6 +4,7 @@
 #include "radiosity/hemicube/five_views.h"
 #include "radiosity/parallel/thread_pool.h"
 #include "tests/support/form_factor_cases.h"
+#include "tests/support/ladder_levels.h"
 #include "tests/support/lambert.h"
 #include "tests/support/one_point.h"
 #include "tests/support/solved.h"
@@ -17,30 +18,6 @@
 
 namespace hemicube::test {
 namespace {
-
-using radiosity::Options;
-using radiosity::Rung;
-
-/// A rung with all that it leaves open.
-struct Level {
-  const char* name;
-  Rung rung;
-  double error;
-
-  Options options() const {
-    Options options;
-    options.rung = rung;
-    options.error = error;
-    return options;
-  }
-};
-constexpr Level kHemicube = {"hemicube", Rung::kHemicube, 0.01};
-constexpr Level kAnalytic = {"analytic", Rung::kAnalytic, 0.01};
-constexpr Level kArea = {"area", Rung::kArea, 0.01};
-constexpr Level kLoose = {"adaptive at 0.3", Rung::kAdaptive, 0.3};
-constexpr Level kAdaptive = {"adaptive", Rung::kAdaptive, 0.01};
-constexpr Level kTight = {"adaptive at 0.001", Rung::kAdaptive, 0.001};
-constexpr Level kExact = {"exact", Rung::kExact, 0.01};
 
 /// Values are floats with one scale a row ...
 constexpr double kStorage = 1e-7;
@@ -63,7 +40,7 @@ TEST(LadderPairs, AnalyticIsThePointFormFactor) {
   for (const nlohmann::json& one : form_factor_cases(false)) {
     const CasePatches made(one);
     FormFactors factors;
-    compute_all(made.patches, kAnalytic.options(), 1, &factors);
+    compute_all(made.patches, kAnalyticRung.options(), 1, &factors);
     for (const std::uint32_t from : {0u, 1u}) {
       const std::uint32_t to = 1 - from;
       const auto polygon = corners_of(made.patches, to);
@@ -117,7 +94,7 @@ const TagBounds kTagBounds[] = {
 };
 
 /// The larger relative error of both form factors of a pair; the absolute one where they are 0.
-double pair_error(const nlohmann::json& one, const Level& level) {
+double pair_error(const nlohmann::json& one, const LadderLevel& level) {
   const CasePatches made(one);
   FormFactors factors;
   compute_all(made.patches, level.options(), 2, &factors);
@@ -130,7 +107,7 @@ double pair_error(const nlohmann::json& one, const Level& level) {
   return largest;
 }
 
-void expect_tags_hold(const Level& level, double TagBounds::*bound) {
+void expect_tags_hold(const LadderLevel& level, double TagBounds::*bound) {
   std::map<std::string, std::pair<double, std::string>> worst;
   for (const nlohmann::json& one : form_factor_cases(false)) {
     const double error = pair_error(one, level);
@@ -150,16 +127,16 @@ void expect_tags_hold(const Level& level, double TagBounds::*bound) {
 // Catches: integrals over the wrong area, transposed entries, blockers where there are none; a
 // method that one shape, distance or angle is too much for.
 TEST(LadderPairs, AreaHoldsForEveryTag) {
-  expect_tags_hold(kArea, &TagBounds::area);
+  expect_tags_hold(kAreaRung, &TagBounds::area);
 }
 TEST(LadderPairs, LooseAdaptiveHoldsForEveryTag) {
-  expect_tags_hold(kLoose, &TagBounds::loose);
+  expect_tags_hold(kLooseRung, &TagBounds::loose);
 }
 TEST(LadderPairs, AdaptiveHoldsForEveryTag) {
-  expect_tags_hold(kAdaptive, &TagBounds::adaptive);
+  expect_tags_hold(kAdaptiveRung, &TagBounds::adaptive);
 }
 TEST(LadderPairs, ExactHoldsForEveryTag) {
-  expect_tags_hold(kExact, &TagBounds::exact);
+  expect_tags_hold(kExactRung, &TagBounds::exact);
 }
 
 // The bounds that partly hidden pairs are to meet at the default target.
@@ -169,7 +146,7 @@ TEST(LadderPairs, OccludedPairsAreWithinOneInAThousand) {
     if (!has_tag(one, "occluded"))
       continue;
     const std::string name = name_of(one);
-    const double error = pair_error(one, kAdaptive), exact = one["F12"];
+    const double error = pair_error(one, kAdaptiveRung), exact = one["F12"];
     std::printf("adaptive, %s: %.1e\n", name.c_str(), error);
     if (name == "occ_thin_wire") {
       EXPECT_LE(error * exact, 3e-4);
@@ -184,13 +161,14 @@ TEST(LadderPairs, OccludedPairsAreWithinOneInAThousand) {
 // Catches: leaks at the rim of a blocker that just hides all, on any rung.
 TEST(LadderPairs, ZeroIsExactlyZeroOnEveryRung) {
   for (const char* name : {"occ_total", "zero_coplanar", "zero_backfacing"})
-    for (const Level& level : {kHemicube, kAnalytic, kArea, kLoose, kAdaptive, kExact})
+    for (const LadderLevel& level :
+         {kHemicubeRung, kAnalyticRung, kAreaRung, kLooseRung, kAdaptiveRung, kExactRung})
       EXPECT_EQ(pair_error(reference_case("formfactors.json", name), level), 0.0)
           << name << ", " << level.name;
 }
 
 void rows_at(const PatchSet& patches, const std::vector<radiosity::Receiver>& points,
-             const Level& level, radiosity::FormFactorMatrix* matrix) {
+             const LadderLevel& level, radiosity::FormFactorMatrix* matrix) {
   radiosity::Certificate certificate;
   radiosity::SerialExecutor serial;
   require(radiosity::compute_point_form_factors(patches, points, level.options(), serial, nullptr,
@@ -204,7 +182,7 @@ TEST(LadderPoints, AreExactOnEveryRungAboveHemicube) {
     builder.face(builder.material("grey", 0.5, 1), facing_polygon(one));
     const PatchSet patches = patches_of(builder.finish());
     const double exact = one["F12"];
-    for (const Level& level : {kAnalytic, kArea, kAdaptive, kExact}) {
+    for (const LadderLevel& level : {kAnalyticRung, kAreaRung, kAdaptiveRung, kExactRung}) {
       radiosity::FormFactorMatrix matrix;
       rows_at(patches, {{point_of(one["P1"][0]), 3.0 * point_of(one["normal1"])}}, level, &matrix);
       EXPECT_NEAR(entry(matrix.row(0), 0), exact, 1e-12 * exact + kRounding)
@@ -232,7 +210,7 @@ TEST_P(BlackRooms, PointsSeeTheEmitterToAllDigits) {
   std::vector<radiosity::Receiver> points;
   for (const auto& probe : probes)
     points.push_back({point_of(probe["position"]), point_of(probe["normal"])});
-  for (const Level& level : {kAdaptive, kExact}) {
+  for (const LadderLevel& level : {kAdaptiveRung, kExactRung}) {
     radiosity::FormFactorMatrix matrix;
     rows_at(patches, points, level, &matrix);
     double largest = 0;
@@ -254,7 +232,7 @@ TEST_P(BlackRooms, PatchMeansAreThoseOfTheReference) {
   const PatchSet patches = patches_of(scene);
   const auto means =
       reference_case("enclosures.json", GetParam())["truth"]["patch_mean_form_factor_to_emitter"];
-  for (const Level& level : {kAdaptive, kTight}) {
+  for (const LadderLevel& level : {kAdaptiveRung, kTightRung}) {
     FormFactors factors;
     compute_all(patches, level.options(), 2, &factors);
     double largest = 0;
@@ -279,15 +257,15 @@ INSTANTIATE_TEST_SUITE_P(, BlackRooms, testing::Values("black_room", "black_room
 
 struct MatrixBound {
   const char* name;
-  Level level;
+  LadderLevel level;
   double rms; ///< over all pairs; at most 3 times what was measured, or what is promised
 };
 // One point a patch is what is wrong on the first two rungs, and with partial visibility on `area`.
 const MatrixBound kMatrixBounds[] = {
-    {"cube8", kHemicube, 1e-3}, {"cube8", kAnalytic, 1e-3},  {"cube8", kArea, 6e-10},
-    {"cube8", kLoose, 9e-9},    {"cube8", kAdaptive, 6e-10}, {"cube8", kExact, 6e-10},
-    {"boxin", kHemicube, 8e-4}, {"boxin", kAnalytic, 8e-4},  {"boxin", kArea, 1.4e-4},
-    {"boxin", kLoose, 2e-5},    {"boxin", kAdaptive, 2e-6}};
+    {"cube8", kHemicubeRung, 1e-3}, {"cube8", kAnalyticRung, 1e-3},  {"cube8", kAreaRung, 6e-10},
+    {"cube8", kLooseRung, 9e-9},    {"cube8", kAdaptiveRung, 6e-10}, {"cube8", kExactRung, 6e-10},
+    {"boxin", kHemicubeRung, 8e-4}, {"boxin", kAnalyticRung, 8e-4},  {"boxin", kAreaRung, 1.4e-4},
+    {"boxin", kLooseRung, 2e-5},    {"boxin", kAdaptiveRung, 2e-6}};
 
 // Catches: what adds up over a row: closure that spoils proven entries, pairs that are found twice
 // or not at all, errors larger than one pair shows.

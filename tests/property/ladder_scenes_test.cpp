@@ -1,0 +1,224 @@
+// Scenes whose form factors are known, or known to be those of another scene, on every rung of the
+// accuracy ladder: coincident patches, sheets, polygons of many corners, closed and open rooms.
+
+#include "tests/support/ladder_levels.h"
+#include "tests/support/polygon_lists.h"
+#include "tests/support/polygon_shapes.h"
+#include "tests/support/reference.h"
+#include "tests/support/solved.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace hemicube::test {
+namespace {
+
+constexpr LadderLevel kLevels[] = {kHemicubeRung, kAnalyticRung, kAreaRung,
+                                   kLooseRung,    kAdaptiveRung, kExactRung};
+
+class EachRung : public testing::TestWithParam<LadderLevel> {
+protected:
+  void compute(const PolygonList& polygons, FormFactors* factors) const {
+    compute_all(patches_of(polygons), GetParam().options(128), 2, factors);
+  }
+  radiosity::Rung rung() const { return GetParam().rung; }
+};
+
+Polygon square(double low, double high, double z, bool up) {
+  const Polygon polygon = {{low, low, z}, {high, low, z}, {high, high, z}, {low, high, z}};
+  return up ? polygon : Polygon(polygon.rbegin(), polygon.rend());
+}
+
+/// A floor, a wall, a ceiling, and a table in between.
+PolygonList furnished() {
+  return {square(0, 1, 0, true),
+          {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}},
+          square(0, 1, 1, false),
+          square(0.3, 0.8, 0.4, true)};
+}
+
+/// Rows of a scene and of the same with one patch twice: the copy is not seen.
+void expect_copy_unseen(const PolygonList& single, std::size_t copied, const LadderLevel& level) {
+  PolygonList twice = single;
+  append(&twice, {single[copied]});
+  std::rotate(twice.back().begin(), twice.back().begin() + 1, twice.back().end());
+  FormFactors expected, actual;
+  compute_all(patches_of(single), level.options(128), 2, &expected);
+  compute_all(patches_of(twice), level.options(128), 2, &actual);
+  for (std::uint32_t i = 0; i < single.size(); ++i) {
+    const std::vector<double> a = expected.dense_row(i), b = actual.dense_row(i);
+    EXPECT_EQ(b.back(), 0.0) << copied << ": the copy is seen from " << i;
+    for (std::uint32_t j = 0; j < single.size(); ++j)
+      EXPECT_NEAR(b[j], a[j], 1e-9) << copied << " twice, from " << i << " to " << j;
+  }
+}
+
+// Catches: z-fighting: both copies seen, or neither, or now one and now the other.
+TEST_P(EachRung, OfCoincidentPatchesTheLowerIsSeen) {
+  if (rung() == radiosity::Rung::kExact) { // slow
+    expect_copy_unseen({square(0, 1, 0, true), square(0, 0.5, 1, false)}, 0, GetParam());
+    return;
+  }
+  for (const std::size_t copied : {0u, 1u, 2u})
+    expect_copy_unseen(furnished(), copied, GetParam());
+  if (rung() <= radiosity::Rung::kArea)
+    expect_copy_unseen(furnished(), 3, GetParam());
+}
+
+// Catches: the back of a sheet that is seen through its front, a sheet that shadows itself.
+TEST_P(EachRung, TwoSidesOfASheet) {
+  const PolygonList sheet = {square(0, 1, 0, true), square(0, 1, 0, false), square(0, 1, 1, false),
+                             square(0, 1, -1, true)};
+  const PolygonList above = {sheet[0], sheet[2]}; // what the other half of the scene sees, mirrored
+  FormFactors both, half;
+  compute(sheet, &both);
+  compute(above, &half);
+  const double exact = 0.19982489569838738; // par_1x1_gap1
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(both.matrix.row(i).back_side, 0.0) << i;
+    const std::vector<double> row = both.dense_row(i);
+    for (std::uint32_t j = 0; j < 4; ++j) {
+      const bool sees = (i ^ j) == 2;
+      EXPECT_NEAR(row[j], sees ? half.dense_row(i / 2)[1 - i / 2] : 0,
+                  rung() == radiosity::Rung::kHemicube ? 2e-3 : 1e-12)
+          << i << " to " << j;
+      if (sees && rung() >= radiosity::Rung::kArea) {
+        EXPECT_NEAR(row[j], exact, 1e-5 * exact);
+      }
+    }
+  }
+}
+
+// Catches: space that is what happens to be missing: errors of partly visible pairs, backs.
+TEST_P(EachRung, OpenScenesSeeSpace) {
+  FormFactors alone, pair;
+  compute({square(0, 1, 0, true)}, &alone);
+  EXPECT_EQ(alone.matrix.row(0).space, 1.0);
+  compute({square(0, 1, 0, true), square(0, 1, 1, false)}, &pair);
+  const bool is_area = rung() >= radiosity::Rung::kArea;
+  const double exact = is_area ? 0.19982489569838738 : 0.23945602;
+  for (const std::uint64_t i : {0u, 1u}) {
+    EXPECT_NEAR(pair.matrix.row(i).space, 1 - exact,
+                rung() == radiosity::Rung::kHemicube ? 2e-3 : 1e-5);
+    EXPECT_EQ(pair.matrix.row(i).back_side, 0.0);
+  }
+  // The back of the second plate: as much is lost there as its front would get.
+  FormFactors averted;
+  compute({square(0, 1, 0, true), square(0, 1, 1, true)}, &averted);
+  EXPECT_NEAR(averted.matrix.row(0).back_side, 1 - pair.matrix.row(0).space, 1e-12);
+  EXPECT_EQ(averted.matrix.row(1).space, 1.0);
+}
+
+/// A convex polygon cut into quads around its first corner.
+PolygonList fan(const Polygon& polygon) {
+  PolygonList quads;
+  for (std::size_t k = 1; k + 2 < polygon.size() + 1; k += 2) {
+    quads.push_back({polygon[0], polygon[k], polygon[k + 1]});
+    if (k + 2 < polygon.size())
+      quads.back().push_back(polygon[k + 2]);
+  }
+  return quads;
+}
+
+// Catches: patches of more corners than a face may have: pieces forgotten, seen twice, shading one
+// another.
+TEST_P(EachRung, ADiskIsTheSumOfItsPieces) {
+  for (const bool is_blocked : {false, true}) {
+    if (is_blocked && rung() == radiosity::Rung::kExact)
+      continue; // slow
+    // Partly hidden, a patch of several pieces is seen from few points on rung `area`.
+    if (is_blocked && rung() == radiosity::Rung::kArea)
+      continue;
+    const double tolerance = !is_blocked                       ? 1e-6
+                             : rung() < radiosity::Rung::kArea ? 2e-3
+                                                               : 0.1 * GetParam().error;
+    const Polygon disk = regular(48); // at height 1, facing up
+    PolygonList rest = {{{1, -1, 2}, {1, 1, 2}, {3, 1, 2}, {3, -1, 2}}};
+    if (is_blocked)
+      append(&rest, {{{1.8, -0.4, 1.5}, {2.7, -0.4, 1.5}, {2.7, 0.6, 1.6}, {1.8, 0.6, 1.6}}});
+    PolygonList whole = {disk}, pieces = fan(disk);
+    const std::size_t count = pieces.size();
+    append(&whole, rest);
+    append(&pieces, rest);
+    FormFactors of_whole, of_pieces;
+    compute(whole, &of_whole);
+    compute(pieces, &of_pieces);
+    const PatchSet patches = patches_of(pieces);
+    double area = 0, sent = 0, seen = 0, space = 0;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      area += patches.area[k];
+      sent += patches.area[k] * of_pieces.dense_row(k)[count];
+      space += patches.area[k] * of_pieces.matrix.row(k).space;
+      seen += of_pieces.dense_row(count)[k];
+    }
+    const double as_target = of_whole.dense_row(1)[0], as_receiver = of_whole.dense_row(0)[1];
+    EXPECT_GT(seen, 0.1);
+    EXPECT_NEAR(as_target, seen, tolerance * seen) << "as a target";
+    if (rung() >= radiosity::Rung::kArea) { // from its centre a disk sees something else
+      EXPECT_NEAR(as_receiver, sent / area, tolerance * sent / area) << "as a receiver";
+      EXPECT_NEAR(of_whole.matrix.row(0).space, space / area, tolerance);
+    }
+    std::printf("%s, %s: a disk differs from its pieces by %.1e\n", GetParam().name,
+                is_blocked ? "blocked" : "free", std::fabs(as_target / seen - 1));
+  }
+}
+
+// Catches: crashes, NaN, rows that do not close where nothing is regular.
+TEST_P(EachRung, SoupsAreFiniteAndClosed) {
+  const int count = rung() == radiosity::Rung::kExact ? 5 : 30;
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    Random random(seed);
+    PolygonList polygons;
+    for (int k = 0; k < count; ++k)
+      polygons.push_back(random_ngon(random, 3 + static_cast<int>(random.index(k == 0 ? 37 : 6)),
+                                     random.point(-1, 1), random.between(0.02, 0.9)));
+    FormFactors factors;
+    compute(polygons, &factors);
+    for (std::uint32_t i = 0; i < factors.matrix.row_count(); ++i) {
+      const radiosity::RowView row = factors.matrix.row(i);
+      double sum = row.space + row.back_side;
+      for (const double value : factors.dense_row(i)) {
+        EXPECT_TRUE(value >= 0 && value <= 1) << value;
+        sum += value;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12) << "seed " << seed << ", row " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, EachRung, testing::ValuesIn(kLevels), [](const auto& made) {
+  std::string name = made.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+});
+
+// Catches: gaps at T-vertices and shared edges, backs of boxes seen through their fronts; what
+// errors leave of a closed row taken for space.
+TEST(ClosedRooms, SeeNeitherSpaceNorBackSides) {
+  std::vector<std::pair<std::string, PatchSet>> rooms;
+  for (const char* name :
+       {"enclosures/furnace_cube", "enclosures/furnace_lroom", "enclosures/furnace_boxes",
+        "enclosures/furnace_icosphere2", "enclosures/furnace_torus", "enclosures/furnace_cube_0999",
+        "scenes/tableroom_a.coarse", "scenes/tworooms_a.coarse", "scenes/corridor_a.coarse"})
+    rooms.emplace_back(name, patches_of(reference_scene(std::string(name) + ".obj")));
+  rooms.emplace_back("t_vertex_room", patches_of(t_vertex_room()));
+  rooms.emplace_back("t_vertex_room, far away", patches_of(t_vertex_room(1, {1000.3, 7.7, -55})));
+  for (const auto& [name, patches] : rooms)
+    for (const LadderLevel& level : {kAreaRung, kLooseRung}) {
+      FormFactors factors;
+      compute_all(patches, level.options(128), 2, &factors);
+      EXPECT_EQ(factors.certificate.space.max, 0.0)
+          << name << ", " << level.name << ": patch " << factors.certificate.space.worst_patch;
+      EXPECT_LE(factors.certificate.back_side.max, 1e-15) // backs in a receiver's plane, rounded
+          << name << ", " << level.name << ": patch " << factors.certificate.back_side.worst_patch;
+      std::printf("%s, %s: raw row sums %.9f .. %.9f\n", name.c_str(), level.name,
+                  factors.certificate.row_sum_raw.min, factors.certificate.row_sum_raw.max);
+    }
+}
+
+} // namespace
+} // namespace hemicube::test
