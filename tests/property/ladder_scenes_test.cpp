@@ -1,6 +1,7 @@
 // Scenes whose form factors are known, or known to be those of another scene, on every rung of the
 // accuracy ladder: coincident patches, sheets, polygons of many corners, closed and open rooms.
 
+#include "tests/support/facets.h"
 #include "tests/support/ladder_levels.h"
 #include "tests/support/polygon_lists.h"
 #include "tests/support/polygon_shapes.h"
@@ -196,6 +197,77 @@ INSTANTIATE_TEST_SUITE_P(, EachRung, testing::ValuesIn(kLevels), [](const auto& 
   return name;
 });
 
+/// What rays that leave a patch cosine-distributed meet: the front of each patch, then space, then
+/// backs.
+std::vector<double> cast_row(Random& random, const std::vector<OwnedFacet>& facets,
+                             std::size_t from, int rays) {
+  std::vector<double> hits(facets.size() + 2, 0);
+  const Vec3& normal = facets[from].facet.plane.normal;
+  const Vec3 side = unit(facets[from].corners[1] - facets[from].corners[0]);
+  for (int k = 0; k < rays; ++k) {
+    double x = 1, y = 1;
+    while (x * x + y * y >= 1) {
+      x = random.between(-1, 1);
+      y = random.between(-1, 1);
+    }
+    const Vec3 to = side * x + glm::cross(normal, side) * y + normal * std::sqrt(1 - x * x - y * y);
+    const Vec3 at = random_place(random, facets[from].facet), end = at + to * 1e3;
+    double nearest = 1;
+    std::size_t hit = facets.size();
+    for (std::size_t j = 0; j < facets.size(); ++j) {
+      const auto& plane = facets[j].facet.plane;
+      const double here = plane.side(at), there = plane.side(end);
+      const double distance = here / (here - there);
+      if (j == from || !(distance < nearest) ||
+          crossing(at, end, facets[j].facet, 0) != Crossing::kCrosses)
+        continue;
+      nearest = distance;
+      hit = here > 0 ? j : facets.size() + 1;
+    }
+    hits[hit] += 1.0 / rays;
+  }
+  return hits;
+}
+
+// Catches: anything between a scene and its rows that takes a patch for hidden or seen which is
+// not: by brute force, without any of the code that is tested.
+TEST(LadderRows, AgreeWithRays) {
+  constexpr int kRays = 20000;
+  double largest = 0, squares = 0;
+  int count = 0;
+  for (const std::uint32_t seed : {21u, 22u, 23u, 24u}) {
+    Random random(seed);
+    PolygonList polygons;
+    for (int k = 0; k < 20; ++k)
+      polygons.push_back(random_ngon(random, 3 + static_cast<int>(random.index(k == 0 ? 37 : 6)),
+                                     random.point(-0.8, 0.8), random.between(0.1, 0.9)));
+    std::vector<OwnedFacet> facets;
+    for (const Polygon& polygon : polygons)
+      facets.emplace_back(polygon);
+    FormFactors factors;
+    compute_all(patches_of(polygons), kAdaptiveRung.options(64), 2, &factors);
+    for (std::uint32_t i = 0; i < polygons.size(); ++i) {
+      std::vector<double> row = factors.dense_row(i);
+      row.push_back(factors.matrix.row(i).space);
+      row.push_back(factors.matrix.row(i).back_side);
+      const std::vector<double> rays = cast_row(random, facets, i, kRays);
+      for (std::size_t j = 0; j < row.size(); ++j) {
+        const double noise = std::sqrt((row[j] * (1 - row[j]) + 2.0 / kRays) / kRays);
+        const double deviation = (row[j] - rays[j]) / noise;
+        EXPECT_LE(std::fabs(deviation), 5) << "seed " << seed << ", " << i << " to " << j << ": "
+                                           << row[j] << ", rays " << rays[j];
+        largest = std::max(largest, std::fabs(deviation));
+        squares += rays[j] > 0 ? deviation * deviation : 0;
+        count += rays[j] > 0;
+      }
+    }
+  }
+  std::printf("rows and rays: %d entries, RMS %.2f and at most %.1f standard deviations\n", count,
+              std::sqrt(squares / count), largest);
+  EXPECT_GT(count, 500);
+  EXPECT_LT(std::sqrt(squares / count), 1.1);
+}
+
 // Catches: gaps at T-vertices and shared edges, backs of boxes seen through their fronts; what
 // errors leave of a closed row taken for space.
 TEST(ClosedRooms, SeeNeitherSpaceNorBackSides) {
@@ -209,8 +281,10 @@ TEST(ClosedRooms, SeeNeitherSpaceNorBackSides) {
   rooms.emplace_back("t_vertex_room, far away", patches_of(t_vertex_room(1, {1000.3, 7.7, -55})));
   for (const auto& [name, patches] : rooms)
     for (const LadderLevel& level : {kAreaRung, kLooseRung}) {
+      if (name == "enclosures/furnace_torus" && level.rung == radiosity::Rung::kArea)
+        continue; // slow
       FormFactors factors;
-      compute_all(patches, level.options(128), 2, &factors);
+      compute_all(patches, level.options(64), 2, &factors);
       EXPECT_EQ(factors.certificate.space.max, 0.0)
           << name << ", " << level.name << ": patch " << factors.certificate.space.worst_patch;
       EXPECT_LE(factors.certificate.back_side.max, 1e-15) // backs in a receiver's plane, rounded
