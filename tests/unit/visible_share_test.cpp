@@ -205,14 +205,16 @@ TEST(ExchangeTable, TransposesPairs) {
     for (std::uint32_t i = 0; i < rows; ++i) {
       for (std::uint32_t j = 0; j < rows; ++j)
         if (j != i && random.index(3) == 0) {
-          pairs[i].push_back({j, static_cast<float>(i), 0.5f, random.index(2) == 0,
+          const bool is_mutual = random.index(4) != 0; // else it is the row's own
+          pairs[i].push_back({j, static_cast<float>(i), 0.5f, random.index(2) == 0, is_mutual,
                               static_cast<double>(i * 1000 + j)});
           PairExchange other = pairs[i].back();
           other.patch = i;
-          others[j].push_back(other);
+          if (is_mutual)
+            others[j].push_back(other);
         }
       require(table.append_row(i / ExchangeTable::kBlockRows,
-                               {pairs[i], 1.0 + i, 0.25 * i, 0.125 * i}));
+                               {pairs[i], 1.0 + i, 0.25 * i, 0.125 * i, i % 2 == 0, 0.0625 * i}));
     }
     require(table.transpose());
     const auto expect_same = [](std::span<const PairExchange> a,
@@ -231,6 +233,8 @@ TEST(ExchangeTable, TransposesPairs) {
       EXPECT_EQ(row.area, 1.0 + i);
       EXPECT_EQ(row.back_side, 0.25 * i);
       EXPECT_EQ(row.back_side_error, 0.125 * i);
+      EXPECT_EQ(row.is_rendered, i % 2 == 0);
+      EXPECT_EQ(row.space, 0.0625 * i);
       expect_same(row.pairs, pairs[i]);
       expect_same(table.others(i), others[i]);
     }
