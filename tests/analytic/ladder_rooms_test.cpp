@@ -24,6 +24,10 @@ struct Room {
   /// The same, of the truth itself: a smaller error cannot be seen.
   double noise;
 };
+void PrintTo(const Room& room, std::ostream* out) {
+  *out << room.name;
+}
+
 const Room kRooms[] = {
     {"cornell", 2e-3, 1.2e-3, 1e-3},        {"tableroom_a", 2.3e-3, 8.5e-4, 1e-3},
     {"tworooms_a", 1.7e-3, 1.4e-3, 1e-3},   {"corridor_a", 2.3e-3, 8e-4, 1e-3},

@@ -57,6 +57,9 @@ struct Case {
   bool closed = false;
   double order = 1e-9; ///< what another order of faces may change
 };
+void PrintTo(const Case& made, std::ostream* out) {
+  *out << made.name;
+}
 PolygonList l_shaped() {
   return list_of(patches_of(l_room(1, 0.5, 1)));
 }

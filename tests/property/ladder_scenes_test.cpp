@@ -232,7 +232,7 @@ std::vector<double> cast_row(Random& random, const std::vector<OwnedFacet>& face
 // Catches: anything between a scene and its rows that takes a patch for hidden or seen which is
 // not: by brute force, without any of the code that is tested.
 TEST(LadderRows, AgreeWithRays) {
-  constexpr int kRays = 20000;
+  constexpr int kRays = 10000;
   double largest = 0, squares = 0;
   int count = 0;
   for (const std::uint32_t seed : {21u, 22u, 23u, 24u}) {
