@@ -104,7 +104,7 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
     for (const PatchPiece& piece : facets().pieces_of(place.patch))
       HC_TRY(add_receiver(view, piece, own_face, own_only ? &piece : nullptr, facts));
   } else {
-    const PatchPiece eye{place.patch, 1, Facet::of({&view.eye, 1}, view.axis_z), {}};
+    const PatchPiece eye{place.patch, false, 1, Facet::of({&view.eye, 1}, view.axis_z), {}};
     HC_TRY(add_receiver(view, eye, own_face, nullptr, facts));
   }
   exchange_.pairs = pairs_.span();
@@ -188,8 +188,9 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
   for (const SeenTarget& target : seen_.targets()) {
     if (target.is_back() && exchange_.is_rendered)
       continue; // the item buffer shows them
-    const bool is_mutual = !by_pixels || target.is_whole();
-    if (is_mutual && !target.is_back() && owner != nullptr && !owns_pair(*owner, *target.piece))
+    const bool is_mutual = !target.is_back() && are_mutual(receiver, *target.piece) &&
+                           (!by_pixels || target.is_whole());
+    if (is_mutual && owner != nullptr && !owns_pair(*owner, *target.piece))
       continue;
     ConvexPolygon corners;
     const Facet facet =
@@ -233,7 +234,7 @@ Status LadderRow::find_share(const PatchPiece& receiver, const SeenTarget& targe
                              const Facet& facet, double whole, VisibleShare* share,
                              RowFacts* facts) {
   if (setup_->setting.rung > Rung::kArea && !target.is_crowded)
-    return integrate_share(receiver, target, facet,
+    return integrate_share(receiver, target, facet, whole,
                            setup_->effort(whole / smaller_area(receiver, target)), share);
   const double resolution = setup_->hemicube.delta.resolution();
   const double pixel = 1 / (3 * resolution * resolution);
@@ -251,20 +252,22 @@ Status LadderRow::find_share(const PatchPiece& receiver, const SeenTarget& targe
       share->error = share->doubt / 2;
     return {};
   }
-  HC_TRY(integrate_share(receiver, target, facet, {1, 1, 1}, share));
+  HC_TRY(integrate_share(receiver, target, facet, whole, {1, 1, 1}, share));
   facts->subpixel_patches += pixels_[patch] == 0 && share->share > 0 ? 1 : 0;
   return {};
 }
 
 Status LadderRow::integrate_share(const PatchPiece& receiver, const SeenTarget& target,
-                                  const Facet& facet, const Effort& effort, VisibleShare* share) {
+                                  const Facet& facet, double whole, const Effort& effort,
+                                  VisibleShare* share) {
   const auto blockers = seen_.blockers_of(target);
   if (is_point(receiver.facet))
     return integrator_.find_at_point(facet, blockers, share);
-  if (target.is_back() || owns_pair(receiver, *target.piece))
-    return integrator_.find(facet, blockers, effort, share);
+  if (target.is_back() || !are_mutual(receiver, *target.piece) ||
+      owns_pair(receiver, *target.piece))
+    return integrator_.find(facet, blockers, whole, effort, share);
   integrator_.set_receiver(facet);
-  const Status status = integrator_.find(receiver.facet, blockers, effort, share);
+  const Status status = integrator_.find(receiver.facet, blockers, whole, effort, share);
   integrator_.set_receiver(receiver.facet);
   return status;
 }

@@ -64,7 +64,7 @@ private:
   Status find_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
                     double whole, VisibleShare* share, RowFacts* facts);
   Status integrate_share(const PatchPiece& receiver, const SeenTarget& target, const Facet& facet,
-                         const Effort& effort, VisibleShare* share);
+                         double whole, const Effort& effort, VisibleShare* share);
   Status render(std::span<const raster::View> views, RowFacts* facts);
   Status render_for(const raster::View& view, const PatchPiece& receiver, RowFacts* facts);
   void clear_pixels() noexcept;

@@ -33,6 +33,10 @@ Status SceneFacets::build(const PatchSet& patches) {
   HC_TRY(tree_.build(faces_));
   HC_TRY(find_blocking());
   HC_TRY(find_overlaps());
+  for (PatchPiece& piece : pieces_)
+    for (const std::uint32_t other : overlaps_of(face_of(piece.patch)))
+      piece.has_copies =
+          piece.has_copies || glm::dot(face(other).plane.normal, piece.facet.plane.normal) > 0;
   anything_hides_ = !overlaps_.empty();
   for (const std::uint8_t can_block : can_block_)
     anything_hides_ = anything_hides_ || can_block != 0;

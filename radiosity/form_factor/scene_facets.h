@@ -12,6 +12,7 @@ namespace hemicube::radiosity {
 /// corners.
 struct PatchPiece {
   std::uint32_t patch = 0;
+  bool has_copies = false; ///< other fronts lie in the same place, as far as some of it goes
   double area = 0;
   Facet facet;
   PreparedArea prepared;

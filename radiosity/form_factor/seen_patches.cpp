@@ -82,7 +82,7 @@ Status SeenTargets::find_front(const SceneFacets& scene, const Facet& receiver,
 Status SeenTargets::add_piece(const SceneFacets& scene, const Facet& receiver, std::uint32_t face,
                               const PatchPiece& piece) {
   const double tolerance = scene.tolerance();
-  if (owner_ != nullptr && !owns_pair(*owner_, piece))
+  if (owner_ != nullptr && are_mutual(*owner_, piece) && !owns_pair(*owner_, piece))
     return {};
   if (receiver.has_behind(piece.facet, tolerance) || piece.facet.has_behind(receiver, tolerance))
     return {};

@@ -5,10 +5,21 @@
 
 namespace hemicube::radiosity {
 
+/// Whether two pieces say the same of each other. Of coincident fronts only one is seen, but all
+/// see.
+inline bool are_mutual(const PatchPiece& a, const PatchPiece& b) noexcept {
+  return !a.has_copies && !b.has_copies;
+}
+
 /// Which of two pieces of one scene a pair belongs to: points are placed on the smaller one, where
-/// less varies.
+/// less varies; of equal ones on that whose centre comes first, whatever the order of faces.
 inline bool owns_pair(const PatchPiece& a, const PatchPiece& b) noexcept {
-  return a.area < b.area || (a.area == b.area && &a < &b);
+  if (a.area != b.area)
+    return a.area < b.area;
+  for (int axis = 0; axis < 3; ++axis)
+    if (a.facet.centre[axis] != b.facet.centre[axis])
+      return a.facet.centre[axis] < b.facet.centre[axis];
+  return &a < &b;
 }
 
 /// A piece of a patch, or the back of a face, that a receiver may see, and what may be in between.

@@ -34,6 +34,20 @@ Spot spot_of(const Vec3* corners, double u, double v) {
 
 } // namespace
 
+/// Near an edge that both share, the kernel grows beyond what a few points can integrate. The whole
+/// is known, and where it grows most all is seen or all is hidden: what is proven to be the one is
+/// found as what the rest leaves.
+double ShareIntegrator::Totals::share(double whole) const noexcept {
+  double share = 1;
+  if (seen == 0 && hidden == 0)
+    share = open > 0 ? open_visible / open : 1;
+  else if (seen >= hidden)
+    share = 1 - (hidden + (open - open_visible)) / whole;
+  else
+    share = (seen + open_visible) / whole;
+  return share < 0 ? 0 : share > 1 ? 1 : share;
+}
+
 Status ShareIntegrator::init(std::uint32_t face_count, double tolerance) {
   plane_tolerance_ = tolerance;
   for (KeptShadows& kept : kept_)
@@ -108,7 +122,7 @@ Status ShareIntegrator::sample(const Cell& cell, Range blockers, bool keeps, Sum
   for (int k = 0; k < kCellPoints; ++k) {
     const Spot spot = spot_of(cell.corners, cell.u + kPoints[k][0] * cell.size,
                               cell.v + kPoints[k][1] * cell.size);
-    const double weight = glm::dot(spot.area, normal) * cell.size * cell.size;
+    const double weight = glm::dot(spot.area, normal) * cell.size * cell.size / kCellPoints;
     HC_TRY(find_shadows(spot.point, blockers, keeps ? &kept_[k] : nullptr));
     PointFormFactors seen;
     HC_TRY(visible_.find(spot.point, normal, *to_, in_the_way_.span(), &seen));
@@ -152,14 +166,14 @@ Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed
 }
 
 /// Adds the integral over a cell, whose points are `sums`, to `refined`.
-/// @param budget  points that may be spent; its quarters share it evenly
+/// @param budget  points that may be spent; quarters that need more share it evenly
 Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
-                               double budget, Sums* refined, double* error) {
+                               double budget, Totals* refined, double* error) {
   const double part = sums.whole / all_;
   const double kink = sums.kink() / all_;
   if ((kink <= tolerance && part <= largest_part_) || budget < 16) {
-    refined->whole += sums.whole;
-    refined->visible += sums.visible;
+    refined->open += sums.whole;
+    refined->open_visible += sums.visible;
     *error += kink;
     return {};
   }
@@ -188,55 +202,60 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
   const bool agrees = left <= tolerance && rest <= tolerance;
   if (agrees)
     *error += left > rest ? left : rest;
+  bool is_done[4];
+  int left_open = 0;
   for (int k = 0; k < 4; ++k) {
-    const bool is_done =
-        fates[k] != Fate::kOpen || (agrees && parts[k].whole <= largest_part_ * all_);
-    if (!is_done) // errors of parts are independent: their squares add up
-      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, (budget - 16) / 4, refined,
-                    error));
-    refined->whole += is_done ? parts[k].whole : 0;
-    refined->visible += is_done ? parts[k].visible : 0;
+    is_done[k] = fates[k] != Fate::kOpen || (agrees && parts[k].whole <= largest_part_ * all_);
+    left_open += is_done[k] ? 0 : 1;
+  }
+  for (int k = 0; k < 4; ++k) {
+    if (!is_done[k]) // errors of parts are independent: their squares add up
+      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, (budget - 16) / left_open,
+                    refined, error));
+    else if (fates[k] == Fate::kSeen)
+      refined->seen += parts[k].whole;
+    else if (fates[k] == Fate::kHidden)
+      refined->hidden += parts[k].whole;
+    else {
+      refined->open += parts[k].whole;
+      refined->open_visible += parts[k].visible;
+    }
   }
   while (blockers_.size() > blockers_before)
     blockers_.pop_back();
   return {};
 }
 
-Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
+Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers, double whole,
                              const Effort& effort, VisibleShare* share) {
   *share = {};
   to_ = &to;
+  all_ = whole;
   HC_TRY(blockers_.assign(blockers));
   const Range all_blockers{0, blockers.size()};
   largest_part_ = effort.largest_part;
   // Points behind the target see nothing of it: the rule's points go where there is something.
-  const ConvexPolygon whole(receiver_->corners);
+  const ConvexPolygon polygon(receiver_->corners);
   double side[ConvexPolygon::kMaxCorners];
   bool is_all_in_front = true;
-  for (int k = 0; k < whole.count; ++k) {
-    side[k] = to.plane.side(whole.corners[k]);
+  for (int k = 0; k < polygon.count; ++k) {
+    side[k] = to.plane.side(polygon.corners[k]);
     is_all_in_front = is_all_in_front && side[k] >= 0;
   }
   ConvexPolygon seeing;
-  cut(whole, side, 0, &seeing, nullptr);
+  cut(polygon, side, 0, &seeing, nullptr);
   Vec3 corners[kMaxCells][4];
   const int cells = split(seeing, corners);
   const bool keeps = is_all_in_front && cells == 1;
-  Sums sums[kMaxCells];
-  all_ = 0;
-  for (int k = 0; k < cells; ++k) {
-    HC_TRY(sample({corners[k], 0, 0, 1}, all_blockers, keeps, &sums[k]));
-    all_ += sums[k].whole;
-  }
-  if (!(all_ > 0))
-    return {};
-  Sums refined;
+  Totals totals;
   double error = 0;
-  for (int k = 0; k < cells; ++k)
-    HC_TRY(refine({corners[k], 0, 0, 1}, all_blockers, sums[k], effort.tolerance, effort.max_points,
-                  &refined, &error));
-  if (refined.whole > 0)
-    share->share = refined.visible / refined.whole;
+  for (int k = 0; k < cells; ++k) {
+    const Cell cell{corners[k], 0, 0, 1};
+    Sums sums;
+    HC_TRY(sample(cell, all_blockers, keeps, &sums));
+    HC_TRY(refine(cell, all_blockers, sums, effort.tolerance, effort.max_points, &totals, &error));
+  }
+  share->share = totals.share(whole);
   share->error = error;
   share->doubt = error > kUnseen ? error : kUnseen;
   return {};

@@ -34,8 +34,9 @@ public:
   /// disagree. Visible form factors are continuous with kinks, for which rules of low order on
   /// small cells are best; in the ratio the variation of the kernel itself all but cancels.
   /// @param to  it and the receiver see each other with their fronts
-  Status find(const Facet& to, std::span<const Blocker> blockers, const Effort& effort,
-              VisibleShare* share);
+  /// @param whole  the integral of the form factor of all of `to` over the receiver, m^2, > 0
+  Status find(const Facet& to, std::span<const Blocker> blockers, double whole,
+              const Effort& effort, VisibleShare* share);
 
   /// The same for a receiver that is a single point.
   Status find_at_point(const Facet& to, std::span<const Blocker> blockers, VisibleShare* share);
@@ -71,6 +72,11 @@ private:
     Buffer<std::uint32_t> faces; ///< [shadow]
   };
 
+  /// Integrals of `whole` over cells that are proven seen, proven hidden, and neither.
+  struct Totals {
+    double seen = 0, hidden = 0, open = 0, open_visible = 0;
+    double share(double whole) const noexcept;
+  };
   /// Which of blockers_ matter.
   struct Range {
     std::size_t begin = 0, end = 0;
@@ -82,7 +88,7 @@ private:
   Status find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept);
   Status narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate);
   Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance, double budget,
-                Sums* refined, double* error);
+                Totals* refined, double* error);
 
   const Facet* receiver_ = nullptr;
   const Facet* to_ = nullptr;
@@ -91,7 +97,7 @@ private:
   Buffer<Blocker> blockers_; ///< of the pair, then of the cells being cut, level after level
   double plane_tolerance_ = 0;
   double largest_part_ = 1;
-  double all_ = 0; ///< the sum of `whole` over the first cells
+  double all_ = 0; ///< the integral of `whole` over the receiver
   std::uint64_t point_count_ = 0;
   Buffer<Shadow> shadows_;           ///< of a point that keeps none
   Buffer<const Shadow*> in_the_way_; ///< of the point at hand

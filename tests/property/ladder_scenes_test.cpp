@@ -53,7 +53,9 @@ void expect_copy_unseen(const PolygonList& single, std::size_t copied, const Lad
     const std::vector<double> a = expected.dense_row(i), b = actual.dense_row(i);
     EXPECT_EQ(b.back(), 0.0) << copied << ": the copy is seen from " << i;
     for (std::uint32_t j = 0; j < single.size(); ++j)
-      EXPECT_NEAR(b[j], a[j], 1e-9) << copied << " twice, from " << i << " to " << j;
+      EXPECT_NEAR(b[j], a[j],
+                  1e-9 + (level.rung == radiosity::Rung::kAdaptive ? 0.01 * level.error : 0))
+          << copied << " twice, from " << i << " to " << j;
   }
 }
 
@@ -63,10 +65,8 @@ TEST_P(EachRung, OfCoincidentPatchesTheLowerIsSeen) {
     expect_copy_unseen({square(0, 1, 0, true), square(0, 0.5, 1, false)}, 0, GetParam());
     return;
   }
-  for (const std::size_t copied : {0u, 1u, 2u})
+  for (const std::size_t copied : {0u, 1u, 2u, 3u})
     expect_copy_unseen(furnished(), copied, GetParam());
-  if (rung() <= radiosity::Rung::kArea)
-    expect_copy_unseen(furnished(), 3, GetParam());
 }
 
 // Catches: the back of a sheet that is seen through its front, a sheet that shadows itself.

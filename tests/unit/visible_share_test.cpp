@@ -43,12 +43,19 @@ struct Pair {
     return polygon;
   }
 
+  /// What receiver and target would exchange.
+  double whole() const {
+    return radiosity::exchange_area(polygon(0), facets[0].facet.plane.normal, polygon(1),
+                                    facets[1].facet.plane.normal, 1e-10)
+        .value;
+  }
+
   VisibleShare share(const Effort& effort, std::uint64_t* points = nullptr) const {
     ShareIntegrator integrator;
     require(integrator.init(static_cast<std::uint32_t>(facets.size()), 0x1p-46));
     integrator.set_receiver(facets[0].facet);
     VisibleShare found;
-    require(integrator.find(facets[1].facet, blockers, effort, &found));
+    require(integrator.find(facets[1].facet, blockers, whole(), effort, &found));
     if (points != nullptr)
       *points = integrator.point_count();
     return found;
@@ -186,7 +193,7 @@ TEST(ShareIntegrator, ForgetsTheReceiverBefore) {
     for (const Effort& effort : {Effort{1, 1, 1}, Effort{1e-2, 0.1, 4096}}) {
       VisibleShare found;
       used.set_receiver(pair.facets[0].facet);
-      require(used.find(pair.facets[1].facet, pair.blockers, effort, &found));
+      require(used.find(pair.facets[1].facet, pair.blockers, pair.whole(), effort, &found));
       const VisibleShare fresh = pair.share(effort);
       EXPECT_EQ(found.share, fresh.share) << i;
       EXPECT_EQ(found.error, fresh.error) << i;
