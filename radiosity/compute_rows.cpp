@@ -52,10 +52,9 @@ Status compute_rows(const PatchSet& patches, std::uint64_t count, Receivers rece
   if (is_all && options.estimate_error && setting.rung != Rung::kExact) {
     RowSample sample;
     HC_TRY(sample.choose(patches.patch_count(), kErrorSampleRows));
-    HC_TRY(compute_exact_rows(&geometry, finer_setting(setting), options, executor, &sample));
+    HC_TRY(compute_exact_rows(&geometry, setting, options, executor, &sample));
     certificate->form_factor_error =
-        sample.form_factor_error([&](std::size_t k) { return matrix->row(sample.patches()[k]); },
-                                 [](std::size_t) { return true; });
+        sample.form_factor_error([&](std::size_t k) { return matrix->row(sample.patches()[k]); });
     certificate->has_form_factor_error = true;
   }
   statistics.summarise(certificate);

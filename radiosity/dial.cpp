@@ -54,18 +54,14 @@ void Dial::list_candidates(const RungSetting& wish) {
 }
 
 /// @param rows  row k belongs to the sample's patch k
-double Dial::light_error(const FormFactorMatrix& rows) const {
+double Dial::light_error(const FormFactorMatrix& rows) {
   const LightProblem& p = *problem_;
   double squares = 0, sampled_area = 0, all = 0, area = 0;
-  constexpr std::uint32_t kMostBands = 64;
-  double defect[kMostBands];
-  if (p.band_count > kMostBands)
-    return 1;
   for (std::size_t k = 0; k < sample_.patches().size(); ++k) {
     const std::uint32_t patch = sample_.patches()[k];
-    sample_.defect(k, rows.row(k), p, light_.span(), defect);
+    sample_.defect(k, rows.row(k), p, light_.span(), defect_.data());
     for (std::uint32_t b = 0; b < p.band_count; ++b)
-      squares += p.area[patch] * defect[b] * defect[b];
+      squares += p.area[patch] * defect_[b] * defect_[b];
     sampled_area += p.area[patch];
   }
   for (std::size_t i = 0; i < p.patch_count(); ++i) {
@@ -79,26 +75,12 @@ double Dial::light_error(const FormFactorMatrix& rows) const {
 Status Dial::judge(Candidate* candidate) {
   if (candidate->is_judged)
     return {};
-  Options quiet = options_;
-  quiet.hash_items = false;
-  RowRun run;
   FormFactorMatrix rows;
-  const auto patches = sample_.patches();
-  HC_TRY(run.init(geometry_, candidate->setting, quiet, patches.size(), executor_, nullptr));
-  HC_TRY(rows.init(patches.size(), geometry_->patches().patch_count()));
-  HC_TRY(run.build(
-      patches.size(),
-      [&](std::uint64_t k, RowPlace* place) {
-        place->patch = patches[k];
-        return true;
-      },
-      [&](std::uint64_t k, const RowView& row, const RowFacts*) {
-        return rows.append_row(k / FormFactorMatrix::kBlockRows, row);
-      }));
+  HC_TRY(compute_sampled_rows(geometry_, candidate->setting, options_, executor_, sample_.patches(),
+                              &rows));
   candidate->error = problem_ != nullptr
                          ? light_error(rows)
-                         : sample_.form_factor_error([&](std::size_t k) { return rows.row(k); },
-                                                     [](std::size_t) { return true; });
+                         : sample_.form_factor_error([&](std::size_t k) { return rows.row(k); });
   candidate->is_judged = true;
   return {};
 }
@@ -111,14 +93,16 @@ Status Dial::choose(RungSetting* setting) {
   }
   HC_TRY(sample_.choose(geometry_->patches().patch_count(), kDialRows));
   std::uint64_t work = 0;
-  HC_TRY(compute_exact_rows(geometry_,
-                            {Rung::kAdaptive, setting->resolution, exact_target(options_.error)},
-                            options_, executor_, &sample_, &work));
+  HC_TRY(compute_sampled_rows(geometry_,
+                              {Rung::kAdaptive, setting->resolution, exact_target(options_.error)},
+                              options_, executor_, sample_.patches(), &sample_.exact, &work));
   const double rows = static_cast<double>(sample_.patches().size());
   order_by_cost(static_cast<double>(work) / rows,
                 static_cast<double>(sample_.exact.nonzero_count()) / rows);
-  if (problem_ != nullptr)
+  if (problem_ != nullptr) {
     HC_TRY(guess_light(*problem_, &light_));
+    HC_TRY(defect_.resize(problem_->band_count));
+  }
   HC_TRY(find_cheapest(options_.error / kMargin, &chosen_));
   *setting = candidates_[chosen_].setting;
   return {};

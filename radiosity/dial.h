@@ -33,14 +33,15 @@ private:
   Status judge(Candidate* candidate);
   void order_by_cost(double exact_work, double seen);
   Status find_cheapest(double bound, std::size_t* found);
-  double light_error(const FormFactorMatrix& rows) const;
+  double light_error(const FormFactorMatrix& rows);
 
   RowGeometry* geometry_;
   const LightProblem* problem_;
   const Options& options_;
   Executor& executor_;
   RowSample sample_;
-  Buffer<double> light_; ///< [patch][band] a guess of B
+  Buffer<double> defect_; ///< [band]
+  Buffer<double> light_;  ///< [patch][band] a guess of B
   Candidate candidates_[kMostCandidates];
   std::size_t candidate_count_ = 0, chosen_ = 0;
 };

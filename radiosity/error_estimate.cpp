@@ -107,20 +107,15 @@ Status choose_sample(const LightProblem& problem, std::span<const double> radios
   return sample->choose(static_cast<std::uint32_t>(count), kErrorSampleRows, reflecting.span());
 }
 
-RungSetting finer_setting(const RungSetting& setting) noexcept {
-  RungSetting finer = setting;
-  finer.rung = Rung::kAdaptive;
-  finer.target = setting.rung == Rung::kAdaptive ? setting.target / 10 : 0.03;
-  return finer;
-}
-
-Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-                          Executor& executor, RowSample* sample, std::uint64_t* work) {
+Status compute_sampled_rows(RowGeometry* geometry, const RungSetting& setting,
+                            const Options& options, Executor& executor,
+                            std::span<const std::uint32_t> patches, FormFactorMatrix* rows,
+                            std::uint64_t* work) {
   Options quiet = options;
   quiet.hash_items = false;
   RowRun run;
-  const auto patches = sample->patches();
   HC_TRY(run.init(geometry, setting, quiet, patches.size(), executor, nullptr));
+  HC_TRY(rows->init(patches.size(), geometry->patches().patch_count()));
   Buffer<std::uint64_t> work_of_row;
   HC_TRY(work_of_row.resize(patches.size()));
   HC_TRY(run.build(
@@ -131,12 +126,21 @@ Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, con
       },
       [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
         work_of_row[k] = facts->work;
-        return sample->exact.append_row(k / FormFactorMatrix::kBlockRows, row);
+        return rows->append_row(k / FormFactorMatrix::kBlockRows, row);
       }));
   if (work != nullptr)
     for (const std::uint64_t of_row : work_of_row)
       *work += of_row;
   return {};
+}
+
+Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
+                          Executor& executor, RowSample* sample) {
+  RungSetting finer = setting;
+  finer.rung = Rung::kAdaptive;
+  finer.target = setting.rung == Rung::kAdaptive ? setting.target / 10 : 0.03;
+  return compute_sampled_rows(geometry, finer, options, executor, sample->patches(),
+                              &sample->exact);
 }
 
 Status estimate_radiosity_error(const RowSample& sample, const FormFactorMatrix& matrix,

@@ -19,13 +19,18 @@ Status guess_light(const LightProblem& problem, Buffer<double>* light);
 Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
                      std::span<const double> doubt, RowSample* sample);
 
-/// A setting that is so much finer that its error does not count beside that of `setting`.
-RungSetting finer_setting(const RungSetting& setting) noexcept;
-
-/// Fills a sample's exact rows.
+/// Computes the rows of some patches.
+/// @param rows  out, row k belongs to patches[k]
 /// @param work  RowFacts::work of all of them is added; may be null
+Status compute_sampled_rows(RowGeometry* geometry, const RungSetting& setting,
+                            const Options& options, Executor& executor,
+                            std::span<const std::uint32_t> patches, FormFactorMatrix* rows,
+                            std::uint64_t* work = nullptr);
+
+/// Fills a sample's exact rows: with a setting that is so much finer that its error does not count
+/// beside that of `setting`.
 Status compute_exact_rows(RowGeometry* geometry, const RungSetting& setting, const Options& options,
-                          Executor& executor, RowSample* sample, std::uint64_t* work = nullptr);
+                          Executor& executor, RowSample* sample);
 
 /// The relative RMS error of B over all bands, area-weighted, that follows from what the sampled
 /// rows gather too much: every other patch is given that of the nearest sampled one by number, and

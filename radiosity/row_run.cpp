@@ -29,7 +29,6 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
     pair_facts_[patch] = *facts;
     return pairs_.append_row(patch / ExchangeTable::kBlockRows, exchange);
   };
-  static_assert(ExchangeTable::kBlockRows == FormFactorMatrix::kBlockRows);
   HC_TRY(for_each_row(
       patch_count, find, [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); },
       true));

@@ -1,12 +1,6 @@
 #include "radiosity/row_sample.h"
 
-#include <cmath>
-
 namespace hemicube::radiosity {
-
-double RowSample::root(double x) noexcept {
-  return std::sqrt(x);
-}
 
 Status RowSample::choose(std::uint32_t patch_count, std::uint32_t count,
                          std::span<const double> weights) noexcept {

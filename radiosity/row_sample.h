@@ -3,6 +3,8 @@
 #include "radiosity/form_factor/matrix.h"
 #include "radiosity/solve/light_problem.h"
 
+#include <cmath>
+
 namespace hemicube::radiosity {
 
 /// Some rows of a matrix computed much more exactly: what the error of all rows is judged by.
@@ -24,15 +26,13 @@ public:
 
   /// RMS error of a form factor over all pairs over the RMS of a form factor, as far as the sample
   /// tells.
-  /// @param row_of      RowView(k), the row to judge of patches()[k]
-  /// @param has_row     bool(k)
-  template <typename RowOf, typename HasRow>
-  double form_factor_error(RowOf row_of, HasRow has_row) const {
+  /// @param row_of  RowView(k), the row to judge of patches()[k]; skipped unless it is computed
+  template <typename RowOf> double form_factor_error(RowOf row_of) const {
     double errors = 0, all = 0;
     for (std::size_t k = 0; k < patches_.size(); ++k) {
-      if (!has_row(k))
-        continue;
       const RowView row = row_of(k), truth = exact.row(k);
+      if (!is_computed(row))
+        continue;
       double row_errors = 0;
       for_each_difference(row, truth, [&](std::uint32_t, double difference) {
         row_errors += difference * difference;
@@ -43,7 +43,7 @@ public:
         row_all += static_cast<double>(value) * static_cast<double>(value);
       all += stands_for_[k] * truth.scale * truth.scale * row_all;
     }
-    return all > 0 ? root(errors / all) : 0;
+    return all > 0 ? std::sqrt(errors / all) : 0;
   }
 
   /// What a row gathers too much: rho_i (sum_j (F_ij - exact) B_j + (s_i - exact) E_space).
@@ -72,8 +72,6 @@ public:
   }
 
 private:
-  static double root(double x) noexcept;
-
   Buffer<std::uint32_t> patches_; ///< ascending
   Buffer<double> stands_for_;     ///< [sampled patch]
 };

@@ -60,7 +60,6 @@ void RowStatistics::summarise(Certificate* certificate) const {
   if (seen != 0)
     for (double* mean : {&c.row_sum_raw.mean, &c.row_sum.mean, &c.space.mean, &c.back_side.mean})
       *mean /= static_cast<double>(seen);
-  c.rows = seen;
   c.form_factor_hash = rows_hash.value();
   c.has_item_hash = hash_items_;
   c.item_hash = hash_items_ ? items_hash.value() : 0;

@@ -133,14 +133,13 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   for (std::uint32_t i = 0; i < patches_.patch_count(); ++i)
     doubt[i] = problem_.is_black(i) ? 0 : statistics_.doubt(i);
   HC_TRY(choose_sample(problem_, radiosity_.span(), doubt.span(), &sample));
-  HC_TRY(compute_exact_rows(&geometry_, finer_setting(setting_), options_, executor_, &sample));
+  HC_TRY(compute_exact_rows(&geometry_, setting_, options_, executor_, &sample));
   Certificate& c = *certificate;
   HC_TRY(estimate_radiosity_error(sample, matrix_, problem_, radiosity_.span(), executor_,
                                   &c.radiosity_error));
   c.has_radiosity_error = true;
-  c.form_factor_error = sample.form_factor_error(
-      [&](std::size_t k) { return matrix_.row(sample.patches()[k]); },
-      [&](std::size_t k) { return !problem_.is_black(sample.patches()[k]); });
+  c.form_factor_error =
+      sample.form_factor_error([&](std::size_t k) { return matrix_.row(sample.patches()[k]); });
   c.has_form_factor_error = true;
   if (!options_.choose_rung || c.radiosity_error <= options_.error)
     return {};

@@ -96,7 +96,7 @@ Status Balancer::init() {
     HC_TRY(values->resize(count));
   for (std::uint64_t i = 0; i < count; ++i) {
     const RowView row = matrix_.row(i);
-    if (row.columns.empty() && row.space == 0 && row.back_side == 0)
+    if (!is_computed(row))
       return Status::error(StatusCode::kInvalidArgument, "row ", i,
                            " was not built: only whole matrices can be balanced");
     relative_area_[i] = area_[i] / largest;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "raster/memory.h"
+#include "radiosity/form_factor/matrix.h"
 
 #include <cstdint>
 
@@ -30,7 +30,7 @@ struct ReceiverExchange {
 /// of consecutive rows, one writer a block.
 class ExchangeTable {
 public:
-  static constexpr std::uint32_t kBlockRows = 8;
+  static constexpr std::uint32_t kBlockRows = FormFactorMatrix::kBlockRows;
 
   Status init(std::uint32_t row_count) noexcept;
   bool empty() const noexcept { return blocks_.size() == 0; }

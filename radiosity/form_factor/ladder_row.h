@@ -78,7 +78,6 @@ private:
   RowBuilder hemicube_;
   SeenTargets seen_;
   ShareIntegrator integrator_;
-  VisiblePart visible_;
 
   Buffer<PairExchange> pairs_;
   double integral_work_ = 0;

@@ -24,6 +24,12 @@ inline double row_dot(const RowView& row, const double* x, std::size_t stride = 
   return row_dot(row, x, stride, 0, row.columns.size());
 }
 
+/// True unless the row is one that was never computed: those have entries, or see space or back
+/// sides.
+inline bool is_computed(const RowView& row) noexcept {
+  return !row.columns.empty() || row.space != 0 || row.back_side != 0;
+}
+
 /// The sum of a row's form factors.
 double row_sum(const RowView& row) noexcept;
 

@@ -8,11 +8,6 @@
 namespace hemicube::radiosity {
 namespace {
 
-/// A row that was computed has entries, or sees space or back sides.
-bool is_computed(const RowView& row) {
-  return !row.columns.empty() || row.space != 0 || row.back_side != 0;
-}
-
 struct Sums {
   double max = 0, squares = 0, all = 0;
 };

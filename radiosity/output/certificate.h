@@ -35,8 +35,7 @@ struct EnergyBalance {
 /// instruction set, compiler and optimisation level.
 struct Certificate {
   std::uint64_t patches = 0;
-  std::uint64_t rows = 0;             ///< built, those of black patches included
-  std::uint64_t hemicubes = 0;        ///< rendered for them
+  std::uint64_t hemicubes = 0;        ///< rendered, for black patches too
   std::uint64_t nonzeros = 0;         ///< entries of all rows
   std::uint64_t subpixel_patches = 0; ///< entries of patches that own no pixel of the item buffer
 
