@@ -45,6 +45,7 @@ std::uint64_t hash_row(const RowView& row) noexcept;
 class FormFactorMatrix {
 public:
   static constexpr std::uint32_t kBlockRows = 8;
+  static constexpr std::uint32_t kRangeBlocks = 32;
 
   /// Forgets all rows and makes room for row_count rows over column_count patches.
   Status init(std::uint64_t row_count, std::uint32_t column_count) noexcept;
@@ -63,6 +64,14 @@ public:
 
   /// A row; empty (all zero) until it was appended.
   RowView row(std::uint64_t index) const noexcept;
+
+  /// Calls Status visit(first_block, last_block) for ranges of blocks first <= block < last that
+  /// follow each other and cover all rows. While it runs, and only then, the rows of the range can
+  /// be read: this is how whole matrices are walked, whether they are in memory or not. Ranges
+  /// begin at multiples of kRangeBlocks. One walk at a time.
+  template <typename Visit> Status for_each_range(Visit visit) const {
+    return block_count() == 0 ? Status() : visit(std::size_t{0}, block_count());
+  }
 
   /// Appends the next row of a block: its rows come in ascending order, from one writer at a time.
   Status append_row(std::size_t block, const RowView& row) noexcept;
