@@ -24,6 +24,11 @@ private:
 Status balance_rows(const PatchSet& patches, Executor& executor, Progress* progress,
                     FormFactorMatrix* matrix, RowStatistics* statistics, Certificate* certificate) {
   Certificate& c = *certificate;
+  if (!matrix->is_in_memory())
+    return Status::error(StatusCode::kOutOfMemory, "balancing needs all form factors in memory, ",
+                         2 * matrix->byte_count(),
+                         " bytes for them twice over: allow more with "
+                         "--memory, or do not balance");
   const std::span<const double> area = patches.area.span();
   BalanceToProgress iterations(progress);
   const auto report = [&]() {

@@ -36,9 +36,11 @@ Status spread_defects(const RowSample& sample, const FormFactorMatrix& matrix,
   HC_TRY(products.resize(bands));
   HC_TRY(squares.resize(bands));
   HC_TRY(relative.resize(patches.size() * bands));
+  FormFactorMatrix rows;
+  HC_TRY(rows.copy_rows(matrix, patches));
   for (std::size_t k = 0; k < patches.size(); ++k) {
     double* of_row = &relative[k * bands];
-    sample.defect(k, matrix.row(patches[k]), problem, radiosity, of_row);
+    sample.defect(k, rows.row(k), problem, radiosity, of_row);
     for (std::uint32_t b = 0; b < bands; ++b) {
       const double base = reflected(std::size_t{patches[k]} * bands + b);
       const double weight = sample.stands_for(k) * problem.area[patches[k]];

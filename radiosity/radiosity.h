@@ -10,6 +10,22 @@
 
 namespace hemicube::radiosity {
 
+/// Where a run keeps rows besides memory: so that a run that was killed goes on where it was, and
+/// form factors need not fit into memory. Files may be null; they are the caller's, and begun anew
+/// where they hold something else (form_factor/matrix_file.h).
+struct RunFiles {
+  ByteFile* rows = nullptr;
+  ByteFile* pairs = nullptr;      ///< what pairs of patches exchange, for rungs that share it
+  ByteFile* black_rows = nullptr; ///< of patches that reflect nothing, which `rows` does not hold
+  bool keeps_black_rows = false;  ///< `rows` holds them all the same, and becomes a finished .hcf
+  bool rows_are_given = false;    ///< `rows` is a finished .hcf: nothing is rendered
+  std::uint64_t most_bytes = RowStorage::kUnlimited; ///< of rows in memory
+  std::uint64_t range_bytes = RowStorage::kRangeBytes;
+
+  bool rows_are_finished = false; ///< out: `rows` is a finished .hcf
+  std::uint64_t rows_resumed = 0; ///< out: rows that need not be computed, as they were there
+};
+
 /// What the caller chooses. The defaults are those of the command line.
 struct Options {
   Rung rung = Rung::kHemicube;
@@ -28,6 +44,7 @@ struct Options {
       false; ///< make the form factors reciprocal (form_factor/balance.h); takes all rows
   bool hash_items = false;                  ///< hash every item buffer (slow)
   const raster::Kernels* kernels = nullptr; ///< instruction set; null = the best this machine has
+  RunFiles* files = nullptr;                ///< null: memory alone
 };
 
 /// Called from time to time, from any worker, never twice at once.

@@ -11,28 +11,60 @@ Status RowRun::init(RowGeometry* geometry, const RungSetting& setting, const Opt
   progress_ = progress;
   total_ = total;
   done_ = 0;
+  pair_storage_ = {};
+  pair_rows_kept_ = 0;
   HC_TRY(pairs_.init(0));
   const raster::Kernels& kernels =
       options.kernels != nullptr ? *options.kernels : raster::best_kernels();
   HC_TRY(setup_.init(geometry, setting, kernels, options.hash_items));
+  shares_pairs_ = setup_.shares_pairs();
   return builders_.init(executor.worker_count());
 }
 
 Status RowRun::find_pairs(std::uint32_t patch_count) {
-  HC_TRY(pairs_.init(patch_count));
-  pair_facts_.clear();
-  HC_TRY(pair_facts_.resize(patch_count));
+  constexpr std::uint32_t kRows = ExchangeTable::kBlockRows;
+  // So many rows tell what all of them will take.
+  const std::uint64_t telling = patch_count / 32 + kRows;
+  HC_TRY(pairs_.init(patch_count, pair_storage_));
+  std::uint64_t first = 0;
+  if (pair_storage_.file != nullptr) {
+    std::uint64_t rest = 0;
+    HC_TRY(pairs_.adopt(pair_storage_.file->size(), &rest));
+    HC_TRY(pair_storage_.file->truncate(rest));
+    while (first < patch_count && pairs_.is_finished(first / kRows))
+      first += kRows;
+    first = first < patch_count ? first : patch_count;
+    pair_rows_kept_ = first;
+    done_ += first;
+  }
+  std::atomic<bool> is_too_large{false};
+  std::atomic<std::uint64_t> found{first};
   const auto find = [&](std::uint64_t index, LadderRow& builder, RowView*, RowFacts* facts, bool*) {
     const auto patch = static_cast<std::uint32_t>(index);
     ReceiverExchange exchange;
     HC_TRY(builder.find_pairs(patch, &exchange, facts));
-    pair_facts_[patch] = *facts;
-    return pairs_.append_row(patch / ExchangeTable::kBlockRows, exchange);
+    HC_TRY(pairs_.append_row(patch / kRows, exchange, *facts));
+    const std::uint64_t rows = ++found;
+    if (rows < telling || pairs_.byte_count() / rows * patch_count <= pair_storage_.most_bytes)
+      return Status();
+    is_too_large = true;
+    return Status::error(StatusCode::kOutOfMemory, "too many pairs");
   };
-  HC_TRY(for_each_row(
-      patch_count, find, [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); },
-      true));
-  return pairs_.transpose();
+  const Status status = for_each_row(
+      first, patch_count, find,
+      [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); }, true);
+  if (!is_too_large) {
+    if (!status.ok())
+      static_cast<void>(pairs_.flush()); // what is lost is only time
+    HC_TRY(status);
+    return pairs_.transpose();
+  }
+  shares_pairs_ = false;
+  done_ = 0;
+  pair_rows_kept_ = 0;
+  if (pair_storage_.file != nullptr)
+    HC_TRY(pair_storage_.file->truncate(pair_storage_.begin));
+  return pairs_.init(0);
 }
 
 Status RowRun::count_row() {

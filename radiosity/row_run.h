@@ -21,71 +21,86 @@ public:
               std::uint64_t total, Executor& executor, Progress* progress,
               std::span<const double> light = {});
 
+  /// Keeps the pairs that build_all finds in a file, and begins with those that are there.
+  /// @param storage  its most_bytes is what they may take: where they need more, each row is built
+  ///                 alone, which gives the same bits and takes longer
+  void keep_pairs(const RowStorage& storage) { pair_storage_ = storage; }
+  /// How many rows found their pairs in the file.
+  std::uint64_t pair_rows_kept() const { return pair_rows_kept_; }
+
+  /// Counts rows as done that are not built.
+  void count_kept(std::uint64_t rows) { done_ += rows; }
+
   /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
   /// the first row, after the last one, and in between.
+  /// @param first     the index to begin with, a multiple of FormFactorMatrix::kBlockRows
   /// @param place_of  bool(index, RowPlace*); false if no row is wanted there: take then gets an
   ///                  empty row and null facts
   template <typename PlaceOf, typename Take>
-  Status build(std::uint64_t count, PlaceOf place_of, Take take) {
+  Status build(std::uint64_t count, PlaceOf place_of, Take take, std::uint64_t first = 0) {
     const auto build_row = [&](std::uint64_t index, LadderRow& builder, RowView* row,
                                RowFacts* facts, bool* is_wanted) {
       RowPlace place;
       *is_wanted = place_of(index, &place);
       return *is_wanted ? builder.build(place, row, facts) : Status();
     };
-    return for_each_row(count, build_row, take, true);
+    return for_each_row(first, count, build_row, take, true);
   }
 
   /// The same for all patches, each its own row: finds each pair of patches once on rungs where
   /// both rows say the same of it.
   /// @param is_wanted  bool(patch)
   template <typename IsWanted, typename Take>
-  Status build_all(std::uint32_t patch_count, IsWanted is_wanted, Take take) {
-    if (!setup_.shares_pairs())
+  Status build_all(std::uint32_t patch_count, IsWanted is_wanted, Take take,
+                   std::uint64_t first = 0) {
+    if (shares_pairs_ && pairs_.empty() && first < patch_count)
+      HC_TRY(find_pairs(patch_count));
+    if (pairs_.empty())
       return build(
           patch_count,
           [&](std::uint64_t index, RowPlace* place) {
             place->patch = static_cast<std::uint32_t>(index);
             return is_wanted(place->patch);
           },
-          take);
-    if (pairs_.empty())
-      HC_TRY(find_pairs(patch_count));
+          take, first);
     const auto assemble_row = [&](std::uint64_t index, LadderRow& builder, RowView* row,
                                   RowFacts* facts, bool* wanted) {
       const auto patch = static_cast<std::uint32_t>(index);
       *wanted = is_wanted(patch);
-      *facts = pair_facts_[patch];
+      *facts = pairs_.facts(patch);
       return *wanted ? builder.assemble(pairs_.row(patch), pairs_.others(patch), row, facts)
                      : Status();
     };
-    return for_each_row(patch_count, assemble_row, take, false);
+    return for_each_row(first, patch_count, assemble_row, take, false);
   }
 
 private:
   template <typename MakeRow, typename Take>
-  Status for_each_row(std::uint64_t count, MakeRow make_row, Take take, bool counts) {
+  Status for_each_row(std::uint64_t first, std::uint64_t count, MakeRow make_row, Take take,
+                      bool counts) {
     constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
-    const auto build_block = [&](std::size_t block, std::size_t worker) {
+    const std::uint64_t first_block = first / kRows;
+    const auto build_block = [&](std::size_t index, std::size_t worker) {
+      const std::uint64_t block = first_block + index;
       const FloatEnvironment environment;
       LadderRow& builder = builders_[worker];
       if (!builder.ready())
         HC_TRY(builder.init(setup_));
       const std::uint64_t end = (block + 1) * kRows < count ? (block + 1) * kRows : count;
-      for (std::uint64_t index = block * kRows; index < end; ++index) {
+      for (std::uint64_t i = block * kRows; i < end; ++i) {
         RowView row;
         RowFacts facts;
         bool is_wanted = true;
-        HC_TRY(make_row(index, builder, &row, &facts, &is_wanted));
-        HC_TRY(take(index, row, is_wanted ? &facts : nullptr));
+        HC_TRY(make_row(i, builder, &row, &facts, &is_wanted));
+        HC_TRY(take(i, row, is_wanted ? &facts : nullptr));
         if (is_wanted && counts)
           HC_TRY(count_row());
       }
       return Status();
     };
     HC_TRY(report());
-    HC_TRY(executor_->for_each((count + kRows - 1) / kRows, build_block));
+    HC_TRY(executor_->for_each((count + kRows - 1) / kRows - first_block, build_block));
     return report();
   }
 
@@ -95,8 +110,10 @@ private:
 
   LadderSetup setup_;
   FixedArray<LadderRow> builders_;
-  ExchangeTable pairs_;         ///< once they were found
-  Buffer<RowFacts> pair_facts_; ///< [patch]
+  bool shares_pairs_ = false; ///< both rows of a pair say the same of it, and memory holds them
+  RowStorage pair_storage_;
+  ExchangeTable pairs_; ///< once they were found
+  std::uint64_t pair_rows_kept_ = 0;
   Executor* executor_ = nullptr;
   Progress* progress_ = nullptr;
   std::uint64_t total_ = 0;

@@ -34,6 +34,17 @@ void RowStatistics::record(std::uint64_t index, const RowView& row, const RowFac
   rows_[index] = {row_sum(row), row.space, row.back_side, hash_row(row), facts, row.columns.size()};
 }
 
+Status RowStatistics::record_rows(const FormFactorMatrix& matrix, std::uint64_t count) {
+  constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
+  return matrix.for_each_range(
+      0, (count + kRows - 1) / kRows, [&](std::size_t first, std::size_t last) {
+        for (std::uint64_t i = matrix.block_begin(first); i < matrix.block_end(last - 1); ++i)
+          if (const RowView row = matrix.row(i); is_computed(row))
+            record(i, row, matrix.facts(i));
+        return Status();
+      });
+}
+
 void RowStatistics::replace(std::uint64_t index, const RowView& row) {
   record(index, row, RowFacts(rows_[index].facts));
 }

@@ -13,6 +13,9 @@ public:
 
   void record(std::uint64_t index, const RowView& row, const RowFacts& facts);
 
+  /// The first rows of a matrix, by how they came about.
+  Status record_rows(const FormFactorMatrix& matrix, std::uint64_t count);
+
   /// A row that was recorded and is now another.
   void replace(std::uint64_t index, const RowView& row);
 

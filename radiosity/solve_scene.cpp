@@ -1,5 +1,6 @@
 #include "radiosity/balance_rows.h"
 #include "radiosity/dial.h"
+#include "radiosity/kept_rows.h"
 #include "radiosity/light_model.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/row_run.h"
@@ -8,6 +9,7 @@
 #include "raster/fp_environment.h"
 #include "raster/hash.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace hemicube::radiosity {
@@ -45,6 +47,9 @@ public:
   Status fill(Solution* solution, Certificate* certificate);
 
 private:
+  Status read_given_rows();
+  void gather_black(std::uint64_t i, const RowView& row);
+  Status gather_black_rows_of(const FormFactorMatrix& rows, std::size_t blocks);
   void balance_energy(const Solution& solution, Certificate* certificate) const;
 
   const Scene& scene_;
@@ -56,8 +61,10 @@ private:
   LightModel light_;
   LightProblem problem_;
   Buffer<double> light_guess_; ///< [patch] all bands together
+  KeptRows kept_;
   RowGeometry geometry_;
   RungSetting setting_;
+  Buffer<double> found_; ///< errors for which finer settings were chosen, by round
   Dial dial_;
   RowRun run_;
   RowStatistics statistics_;
@@ -68,11 +75,14 @@ private:
 Status SceneSolver::prepare() {
   HC_TRY(light_.init(scene_, patches_));
   problem_ = light_.problem(patches_);
-  return geometry_.init(patches_);
+  kept_.init(patches_, options_, hash_scene(scene_, patches_));
+  return kept_.are_given() ? Status() : geometry_.init(patches_);
 }
 
 Status SceneSolver::choose_setting() {
   setting_ = {options_.rung, options_.resolution, options_.error};
+  if (kept_.are_given())
+    return {};
   if (options_.estimate_error) {
     Buffer<double> light;
     const std::uint32_t bands = problem_.band_count;
@@ -81,27 +91,61 @@ Status SceneSolver::choose_setting() {
     for (std::size_t k = 0; k < light.size(); ++k)
       light_guess_[k / bands] += light[k];
   }
-  return dial_.choose(&setting_);
+  HC_TRY(dial_.choose(&setting_));
+  HC_TRY(kept_.past_rounds(&found_));
+  bool is_finer = true;
+  for (const double found : found_)
+    HC_TRY(dial_.choose_finer(found, &setting_, &is_finer));
+  return {};
+}
+
+Status SceneSolver::read_given_rows() {
+  HC_TRY(statistics_.init(patches_.patch_count(), options_.hash_items));
+  HC_TRY(kept_.read_given(&matrix_, &setting_));
+  return statistics_.record_rows(matrix_, matrix_.row_count());
 }
 
 Status SceneSolver::build_matrix(Certificate* certificate) {
+  if (kept_.are_given()) {
+    HC_TRY(read_given_rows());
+    return options_.balance
+               ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
+               : Status();
+  }
   const std::uint32_t count = patches_.patch_count();
+  const auto is_wanted = [&](std::uint32_t i) {
+    return options_.balance || kept_.hold_black_rows() || !problem_.is_black(i);
+  };
   std::uint64_t rows = count;
-  if (!options_.black_irradiance && !options_.balance)
+  if (!options_.black_irradiance && !options_.balance && !kept_.hold_black_rows())
     for (std::uint32_t i = 0; i < count; ++i)
       rows -= problem_.is_black(i) ? 1 : 0;
   HC_TRY(
       run_.init(&geometry_, setting_, options_, rows, executor_, progress_, light_guess_.span()));
   HC_TRY(statistics_.init(count, options_.hash_items));
-  HC_TRY(matrix_.init(count, count));
-  HC_TRY(run_.build_all(
-      patches_.patch_count(),
-      [&](std::uint32_t i) { return options_.balance || !problem_.is_black(i); },
+  kept_.begin_round(setting_, found_.span());
+  RowStorage pairs;
+  std::uint64_t first = 0;
+  HC_TRY(kept_.begin_matrix(KeptRows::Part::kRows, &matrix_, &first));
+  HC_TRY(statistics_.record_rows(matrix_, first));
+  HC_TRY(kept_.open(KeptRows::Part::kPairs, &pairs));
+  run_.keep_pairs(pairs);
+  for (std::uint32_t i = 0; i < first; ++i)
+    run_.count_kept(is_wanted(i) ? 1 : 0);
+  const Status built = run_.build_all(
+      count, is_wanted,
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
-        return matrix_.append_row(i / FormFactorMatrix::kBlockRows, row);
-      }));
+        return matrix_.append_row(i / FormFactorMatrix::kBlockRows, row,
+                                  facts != nullptr ? *facts : RowFacts());
+      },
+      first);
+  kept_.report(std::max(first, run_.pair_rows_kept()));
+  if (!built.ok())
+    static_cast<void>(matrix_.flush()); // what it cannot keep is lost, and nothing else
+  HC_TRY(built);
+  HC_TRY(kept_.finish(&matrix_));
   return options_.balance
              ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
              : Status();
@@ -109,7 +153,12 @@ Status SceneSolver::build_matrix(Certificate* certificate) {
 
 Status SceneSolver::solve(Certificate* certificate) {
   certificate->has_reciprocity = true;
-  HC_TRY(measure_reciprocity(matrix_, patches_.area.span(), executor_, &certificate->reciprocity));
+  Buffer<std::uint8_t> is_black;
+  HC_TRY(is_black.resize(patches_.patch_count()));
+  for (std::uint32_t i = 0; i < patches_.patch_count(); ++i)
+    is_black[i] = !options_.balance && problem_.is_black(i); // without a row, or as if without
+  HC_TRY(measure_reciprocity(matrix_, patches_.area.span(), executor_, &certificate->reciprocity,
+                             is_black.span()));
   SweepsToProgress progress(progress_);
   Convergence convergence;
   const Status status = gauss_seidel(matrix_, problem_, {options_.tolerance, options_.max_sweeps},
@@ -125,7 +174,8 @@ Status SceneSolver::solve(Certificate* certificate) {
 
 Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   *is_enough = true;
-  if (!options_.estimate_error || setting_.rung == Rung::kExact)
+  // To judge rows that were given, others would have to be rendered.
+  if (!options_.estimate_error || setting_.rung == Rung::kExact || kept_.are_given())
     return {};
   RowSample sample;
   Buffer<double> doubt;
@@ -138,41 +188,76 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   HC_TRY(estimate_radiosity_error(sample, matrix_, problem_, radiosity_.span(), executor_,
                                   &c.radiosity_error));
   c.has_radiosity_error = true;
-  c.form_factor_error =
-      sample.form_factor_error([&](std::size_t k) { return matrix_.row(sample.patches()[k]); });
+  FormFactorMatrix rows;
+  HC_TRY(rows.copy_rows(matrix_, sample.patches()));
+  c.form_factor_error = sample.form_factor_error([&](std::size_t k) { return rows.row(k); });
   c.has_form_factor_error = true;
   if (!options_.choose_rung || c.radiosity_error <= options_.error)
     return {};
   bool is_finer = false;
   HC_TRY(dial_.choose_finer(c.radiosity_error, &setting_, &is_finer));
+  if (is_finer)
+    HC_TRY(found_.push_back(c.radiosity_error));
   *is_enough = !is_finer;
   return {};
 }
 
-Status SceneSolver::gather_black_irradiance() {
+void SceneSolver::gather_black(std::uint64_t i, const RowView& row) {
   const std::uint32_t bands = light_.band_count;
-  const auto gather = [&](std::uint64_t i, const RowView& row, bool is_wanted) {
-    for (std::uint32_t b = 0; b < bands && problem_.is_black(i); ++b)
-      irradiance_[i * bands + b] = is_wanted ? row_dot(row, radiosity_.data() + b, bands) +
-                                                   row.space * problem_.space_exitance[b]
-                                             : kNotComputed;
-  };
-  if (options_.balance) // all rows are there
-    return executor_.for_each(matrix_.block_count(), [&](std::size_t block, std::size_t) {
+  for (std::uint32_t b = 0; b < bands; ++b)
+    irradiance_[i * bands + b] =
+        row_dot(row, radiosity_.data() + b, bands) + row.space * problem_.space_exitance[b];
+}
+
+Status SceneSolver::gather_black_irradiance() {
+  if (!options_.black_irradiance) {
+    for (std::size_t at = 0; at < irradiance_.size(); ++at)
+      if (problem_.is_black(at / light_.band_count))
+        irradiance_[at] = kNotComputed;
+    return {};
+  }
+  if (options_.balance || kept_.hold_black_rows() || kept_.are_given())
+    return gather_black_rows_of(matrix_, matrix_.block_count());
+  // Rows that are used once and dropped, or kept where there is a file for them.
+  FormFactorMatrix black_rows;
+  std::uint64_t first = 0;
+  const bool are_kept = options_.files != nullptr && options_.files->black_rows != nullptr;
+  if (are_kept) {
+    HC_TRY(kept_.begin_matrix(KeptRows::Part::kBlackRows, &black_rows, &first));
+    HC_TRY(statistics_.record_rows(black_rows, first));
+    HC_TRY(gather_black_rows_of(black_rows, (first + FormFactorMatrix::kBlockRows - 1) /
+                                                FormFactorMatrix::kBlockRows));
+    for (std::uint32_t i = 0; i < first; ++i)
+      run_.count_kept(problem_.is_black(i) ? 1 : 0);
+  }
+  const Status built = run_.build_all(
+      patches_.patch_count(), [&](std::uint32_t i) { return problem_.is_black(i); },
+      [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
+        if (facts != nullptr) {
+          statistics_.record(i, row, *facts);
+          gather_black(i, row);
+        }
+        return are_kept ? black_rows.append_row(i / FormFactorMatrix::kBlockRows, row,
+                                                facts != nullptr ? *facts : RowFacts())
+                        : Status();
+      },
+      first);
+  if (!built.ok() && are_kept)
+    static_cast<void>(black_rows.flush());
+  return built;
+}
+
+Status SceneSolver::gather_black_rows_of(const FormFactorMatrix& rows, std::size_t blocks) {
+  return rows.for_each_range(0, blocks, [&](std::size_t first, std::size_t last) {
+    return executor_.for_each(last - first, [&](std::size_t block, std::size_t) {
       const FloatEnvironment environment;
-      for (std::uint64_t i = matrix_.block_begin(block); i < matrix_.block_end(block); ++i)
-        gather(i, matrix_.row(i), options_.black_irradiance);
+      for (std::uint64_t i = rows.block_begin(first + block); i < rows.block_end(first + block);
+           ++i)
+        if (problem_.is_black(i))
+          gather_black(i, rows.row(i));
       return Status();
     });
-  return run_.build_all(
-      patches_.patch_count(),
-      [&](std::uint32_t i) { return options_.black_irradiance && problem_.is_black(i); },
-      [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
-        if (facts != nullptr)
-          statistics_.record(i, row, *facts);
-        gather(i, row, facts != nullptr);
-        return Status();
-      });
+  });
 }
 
 Status SceneSolver::fill(Solution* solution, Certificate* certificate) {

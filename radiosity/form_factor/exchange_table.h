@@ -8,12 +8,17 @@ namespace hemicube::radiosity {
 
 /// What two patches exchange: A_i F_ij = A_j F_ji, the same number for both rows.
 struct PairExchange {
-  std::uint32_t patch = 0;   ///< the other one
-  float error = 0;           ///< estimated, in units of value
-  float doubt = 0;           ///< what it might be wrong by, for the choice of rows to look at again
-  bool is_estimated = false; ///< partly hidden: closure may scale it
-  bool is_mutual = true;     ///< the same for both rows, which share it
-  double value = 0;          ///< m^2; of a point, the form factor itself
+  std::uint32_t patch = 0; ///< the other one
+  float error = 0;         ///< estimated, in units of value
+  float doubt = 0;         ///< what it might be wrong by, for the choice of rows to look at again
+  std::uint32_t flags = kMutual;
+  double value = 0; ///< m^2; of a point, the form factor itself
+
+  static constexpr std::uint32_t kEstimated = 1, kMutual = 2;
+  /// Partly hidden: closure may scale it.
+  bool is_estimated() const noexcept { return (flags & kEstimated) != 0; }
+  /// The same for both rows, which share it.
+  bool is_mutual() const noexcept { return (flags & kMutual) != 0; }
 };
 
 /// What a receiver was found to exchange, its row before closure.
@@ -30,19 +35,32 @@ struct ReceiverExchange {
 /// of consecutive rows, one writer a block.
 class ExchangeTable {
 public:
-  static constexpr std::uint32_t kBlockRows = FormFactorMatrix::kBlockRows;
+  static constexpr std::uint32_t kBlockRows = RowStore::kBlockRows;
 
-  Status init(std::uint32_t row_count) noexcept;
-  bool empty() const noexcept { return blocks_.size() == 0; }
+  /// @param storage  its file keeps the rows too; they must find room in memory all the same
+  Status init(std::uint32_t row_count, const RowStorage& storage = {}) noexcept;
+  bool empty() const noexcept { return rows_.block_count() == 0; }
+
+  /// Takes the rows that are in the storage's file, as far as they are sound.
+  /// @param end, rest  as RowStore::adopt
+  Status adopt(std::uint64_t end, std::uint64_t* rest) noexcept;
+  bool is_finished(std::size_t block) const noexcept { return rows_.is_finished(block); }
 
   /// Appends the next row of a block; rows come in ascending order.
-  Status append_row(std::size_t block, const ReceiverExchange& row) noexcept;
+  Status append_row(std::size_t block, const ReceiverExchange& row, const RowFacts& facts) noexcept;
+
+  /// Brings all finished blocks that follow each other from the first on to the file.
+  Status flush() noexcept { return rows_.flush(); }
+
+  /// What the rows that are there and their transpose take in memory, at most.
+  std::uint64_t byte_count() const noexcept { return 2 * rows_.byte_count(); }
 
   /// To be called when all rows are there, before `others`.
   Status transpose() noexcept;
 
   /// As it was appended.
   ReceiverExchange row(std::uint32_t index) const noexcept;
+  RowFacts facts(std::uint32_t index) const noexcept;
   /// The mutual pairs that other rows found with this one, by ascending row.
   std::span<const PairExchange> others(std::uint32_t index) const noexcept {
     return others_.span().subspan(other_offsets_[index],
@@ -50,17 +68,7 @@ public:
   }
 
 private:
-  struct RowEnd {
-    std::size_t pairs;         ///< of the block up to and including this row
-    ReceiverExchange exchange; ///< but for the pairs
-  };
-  struct Block {
-    Buffer<PairExchange> pairs;
-    Buffer<RowEnd> rows;
-  };
-
-  std::uint32_t row_count_ = 0;
-  FixedArray<Block> blocks_;
+  RowStore rows_;
   Buffer<std::size_t> other_offsets_;
   Buffer<PairExchange> others_;
 };

@@ -211,8 +211,10 @@ Status LadderRow::add_receiver(const raster::View& view, const PatchPiece& recei
       exchange_.back_side += value;
       exchange_.back_side_error += error;
     } else if (value > 0 || doubt > 0) {
+      const std::uint32_t flags = (target.is_whole() ? 0 : PairExchange::kEstimated) |
+                                  (is_mutual ? PairExchange::kMutual : 0);
       HC_TRY(pairs_.push_back({target.piece->patch, static_cast<float>(error),
-                               static_cast<float>(doubt), !target.is_whole(), is_mutual, value}));
+                               static_cast<float>(doubt), flags, value}));
     }
   }
   return {};
@@ -301,7 +303,7 @@ Status LadderRow::add(const PairExchange& pair, double area) {
   Entry& entry = entries_[pair.patch];
   if (entry.proven == 0 && entry.estimated == 0)
     HC_TRY(touched_.push_back(pair.patch));
-  (pair.is_estimated ? entry.estimated : entry.proven) += pair.value / area;
+  (pair.is_estimated() ? entry.estimated : entry.proven) += pair.value / area;
   return {};
 }
 

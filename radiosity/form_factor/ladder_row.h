@@ -15,19 +15,6 @@ struct RowPlace {
   Vec3 position{0, 0, 0}, normal{0, 0, 1}; ///< without a patch; normal of any length > 0
 };
 
-/// How a row came about.
-struct RowFacts {
-  std::uint32_t hemicubes = 0;
-  std::uint32_t subpixel_patches = 0; ///< seen without a pixel of their own
-  double raw_sum = 0;                 ///< of the row, before closure
-  double error = 0; ///< estimated: root of the sum of the squared errors of the entries
-  double doubt =
-      0; ///< what light may be wrong by because of the row, in units of LadderSetup::light
-  std::uint64_t work = 0; ///< what it took without hemicubes, roughly nanoseconds; not a
-                          ///< measurement: the same everywhere
-  std::uint64_t item_hash = 0;
-};
-
 /// Builds rows on any rung. One per worker.
 class LadderRow {
 public:

@@ -4,6 +4,7 @@
 #include "raster/hash.h"
 
 #include <bit>
+#include <cmath>
 
 namespace hemicube::radiosity {
 double row_dot(const RowView& row, const double* x, std::size_t stride, std::size_t first,
@@ -47,65 +48,112 @@ std::uint64_t hash_row(const RowView& row) noexcept {
   return hash.value();
 }
 
-Status FormFactorMatrix::init(std::uint64_t row_count, std::uint32_t column_count) noexcept {
-  row_count_ = row_count;
+Status FormFactorMatrix::init(std::uint64_t row_count, std::uint32_t column_count,
+                              const RowStorage& storage) noexcept {
   column_count_ = column_count;
-  return blocks_.init(static_cast<std::size_t>((row_count + kBlockRows - 1) / kBlockRows));
+  nonzeros_ = 0;
+  return rows_.init(row_count, storage);
 }
 
-std::uint64_t FormFactorMatrix::nonzero_count() const noexcept {
-  std::uint64_t count = 0;
-  for (const Block& block : blocks_)
-    count += block.columns.size();
-  return count;
+Status FormFactorMatrix::adopt(std::uint64_t end, std::uint64_t* rest) noexcept {
+  return rows_.adopt(
+      end,
+      [&](std::span<const std::byte> bytes) {
+        if (!is_sound(bytes))
+          return false;
+        nonzeros_ += view(bytes).columns.size();
+        return true;
+      },
+      rest);
 }
 
-RowView FormFactorMatrix::row(std::uint64_t index) const noexcept {
-  const Block& block = blocks_[index / kBlockRows];
-  const std::size_t k = index % kBlockRows;
-  if (k >= block.rows.size())
+RowView FormFactorMatrix::view(std::span<const std::byte> bytes) noexcept {
+  if (bytes.empty())
     return {};
-  const std::size_t begin = k == 0 ? 0 : block.rows[k - 1].nonzeros;
-  const RowEnd& end = block.rows[k];
-  return {block.columns.span().subspan(begin, end.nonzeros - begin),
-          block.values.span().subspan(begin, end.nonzeros - begin), end.scale, end.space,
-          end.back_side};
+  const RowHead& head = *reinterpret_cast<const RowHead*>(bytes.data());
+  const auto* columns = reinterpret_cast<const std::uint32_t*>(bytes.data() + sizeof(RowHead));
+  return {{columns, head.nonzeros},
+          {reinterpret_cast<const float*>(columns + head.nonzeros), head.nonzeros},
+          head.scale,
+          head.space,
+          head.back_side};
+}
+
+/// What a file may hold, whoever wrote it: nothing that leads out of the arrays, or to light that
+/// is no number.
+bool FormFactorMatrix::is_sound(std::span<const std::byte> bytes) const noexcept {
+  if (bytes.size() < sizeof(RowHead))
+    return false;
+  const std::uint64_t nonzeros = reinterpret_cast<const RowHead*>(bytes.data())->nonzeros;
+  if (nonzeros != (bytes.size() - sizeof(RowHead)) / 8)
+    return false;
+  const RowView row = view(bytes);
+  const auto is_share = [](double x) { return x >= 0 && x <= 1; };
+  bool sound =
+      row.scale >= 0 && std::isfinite(row.scale) && is_share(row.space) && is_share(row.back_side);
+  for (std::size_t k = 0; k < nonzeros; ++k)
+    sound = sound && row.columns[k] < column_count_ &&
+            (k == 0 || row.columns[k - 1] < row.columns[k]) && row.values[k] >= 0 &&
+            std::isfinite(row.values[k]);
+  return sound && row_sum(row) <= 1 + 0x1p-40;
+}
+
+RowFacts FormFactorMatrix::facts(std::uint64_t index) const noexcept {
+  const std::span<const std::byte> bytes = rows_.row(index);
+  return bytes.empty() ? RowFacts() : reinterpret_cast<const RowHead*>(bytes.data())->facts;
+}
+
+Status FormFactorMatrix::read_row(std::uint64_t index, Buffer<std::byte>* scratch,
+                                  RowView* row) const noexcept {
+  std::span<const std::byte> bytes;
+  HC_TRY(rows_.read_row(index, scratch, &bytes));
+  *row = view(bytes);
+  return {};
 }
 
 void FormFactorMatrix::swap(FormFactorMatrix& other) noexcept {
-  blocks_.swap(other.blocks_);
-  std::swap(row_count_, other.row_count_);
+  rows_.swap(other.rows_);
+  nonzeros_ = other.nonzeros_.exchange(nonzeros_);
   std::swap(column_count_, other.column_count_);
 }
 
+Status FormFactorMatrix::copy_rows(const FormFactorMatrix& from,
+                                   std::span<const std::uint32_t> rows) noexcept {
+  HC_TRY(init(rows.size(), from.column_count()));
+  Buffer<std::byte> scratch;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    RowView row;
+    HC_TRY(from.read_row(rows[k], &scratch, &row));
+    HC_TRY(append_row(k / kBlockRows, row));
+  }
+  return {};
+}
+
 Status FormFactorMatrix::reserve_block(std::size_t index, std::size_t nonzeros) noexcept {
-  HC_TRY(blocks_[index].columns.reserve(nonzeros));
-  return blocks_[index].values.reserve(nonzeros);
+  return rows_.reserve(index, kBlockRows * sizeof(RowHead) + 8 * nonzeros);
 }
 
 std::span<float> FormFactorMatrix::values(std::uint64_t index) noexcept {
-  const std::span<const float> values = row(index).values;
+  const std::span<const float> values = view(rows_.row(index)).values;
   return {const_cast<float*>(values.data()), values.size()};
 }
 
 void FormFactorMatrix::set_shares(std::uint64_t index, double scale, double space,
                                   double back_side) noexcept {
-  Block& block = blocks_[index / kBlockRows];
-  const std::size_t k = index % kBlockRows;
-  HC_ASSERT(k < block.rows.size());
-  block.rows[k] = {block.rows[k].nonzeros, scale, space, back_side};
+  const std::span<std::byte> bytes = rows_.row(index);
+  HC_ASSERT(!bytes.empty());
+  RowHead& head = *reinterpret_cast<RowHead*>(bytes.data());
+  head.scale = scale;
+  head.space = space;
+  head.back_side = back_side;
 }
 
-Status FormFactorMatrix::append_row(std::size_t index, const RowView& row) noexcept {
-  Block& block = blocks_[index];
-  HC_ASSERT(block.rows.size() < kBlockRows);
-  HC_TRY(block.columns.append(row.columns));
-  HC_TRY(block.values.append(row.values));
-  HC_TRY(block.rows.push_back({block.columns.size(), row.scale, row.space, row.back_side}));
-  if (block_begin(index) + block.rows.size() < block_end(index))
-    return {};
-  HC_TRY(block.columns.shrink_to_fit()); // the block is complete
-  return block.values.shrink_to_fit();
+Status FormFactorMatrix::append_row(std::size_t block, const RowView& row,
+                                    const RowFacts& facts) noexcept {
+  const RowHead head{row.columns.size(), row.scale, row.space, row.back_side, facts};
+  nonzeros_ += row.columns.size();
+  return rows_.append(block, {std::as_bytes(std::span(&head, 1)), std::as_bytes(row.columns),
+                              std::as_bytes(row.values)});
 }
 
 } // namespace hemicube::radiosity

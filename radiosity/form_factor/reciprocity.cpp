@@ -15,12 +15,22 @@ struct Sums {
 } // namespace
 
 Status measure_reciprocity(const FormFactorMatrix& matrix, std::span<const double> area,
-                           Executor& executor, Reciprocity* reciprocity) {
+                           Executor& executor, Reciprocity* reciprocity,
+                           std::span<const std::uint8_t> is_left_out) {
   Buffer<Sums> blocks;
   HC_TRY(blocks.resize(matrix.block_count()));
+  Buffer<std::uint8_t> counts; // [patch]
+  HC_TRY(counts.resize(matrix.row_count()));
+  HC_TRY(matrix.for_each_range([&](std::size_t first, std::size_t last) {
+    for (std::uint64_t i = matrix.block_begin(first); i < matrix.block_end(last - 1); ++i)
+      counts[i] = is_computed(matrix.row(i)) && (is_left_out.empty() || is_left_out[i] == 0);
+    return Status();
+  }));
   const auto visit = [&](std::size_t block, std::size_t, const MatrixColumns& columns) {
     Sums sums;
     for (std::uint64_t i = matrix.block_begin(block); i < matrix.block_end(block); ++i) {
+      if (counts[i] == 0)
+        continue;
       const RowView row = matrix.row(i);
       const std::span<const ColumnEntry> column = columns.column(i);
       for (std::size_t k = 0, m = 0; k < row.columns.size(); ++k) {
@@ -29,7 +39,7 @@ Status measure_reciprocity(const FormFactorMatrix& matrix, std::span<const doubl
           ++m;
         const bool has_back = m < column.size() && column[m].row == j;
         // A pair with two entries is met from both sides and counted from the lower one.
-        if (has_back ? j < i : !is_computed(matrix.row(j)))
+        if (counts[j] == 0 || (has_back && j < i))
           continue;
         const double back =
             has_back ? area[j] * (columns.scale(j) * static_cast<double>(column[m].value)) : 0;

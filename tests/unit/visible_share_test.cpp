@@ -213,15 +213,18 @@ TEST(ExchangeTable, TransposesPairs) {
       for (std::uint32_t j = 0; j < rows; ++j)
         if (j != i && random.index(3) == 0) {
           const bool is_mutual = random.index(4) != 0; // else it is the row's own
-          pairs[i].push_back({j, static_cast<float>(i), 0.5f, random.index(2) == 0, is_mutual,
-                              static_cast<double>(i * 1000 + j)});
+          const std::uint32_t flags = (random.index(2) == 0 ? PairExchange::kEstimated : 0) |
+                                      (is_mutual ? PairExchange::kMutual : 0);
+          pairs[i].push_back(
+              {j, static_cast<float>(i), 0.5f, flags, static_cast<double>(i * 1000 + j)});
           PairExchange other = pairs[i].back();
           other.patch = i;
           if (is_mutual)
             others[j].push_back(other);
         }
       require(table.append_row(i / ExchangeTable::kBlockRows,
-                               {pairs[i], 1.0 + i, 0.25 * i, 0.125 * i, i % 2 == 0, 0.0625 * i}));
+                               {pairs[i], 1.0 + i, 0.25 * i, 0.125 * i, i % 2 == 0, 0.0625 * i},
+                               {.hemicubes = i}));
     }
     require(table.transpose());
     const auto expect_same = [](std::span<const PairExchange> a,
@@ -231,7 +234,7 @@ TEST(ExchangeTable, TransposesPairs) {
         EXPECT_EQ(a[k].patch, b[k].patch);
         EXPECT_EQ(a[k].error, b[k].error);
         EXPECT_EQ(a[k].doubt, b[k].doubt);
-        EXPECT_EQ(a[k].is_estimated, b[k].is_estimated);
+        EXPECT_EQ(a[k].flags, b[k].flags);
         EXPECT_EQ(a[k].value, b[k].value);
       }
     };
@@ -242,6 +245,7 @@ TEST(ExchangeTable, TransposesPairs) {
       EXPECT_EQ(row.back_side_error, 0.125 * i);
       EXPECT_EQ(row.is_rendered, i % 2 == 0);
       EXPECT_EQ(row.space, 0.0625 * i);
+      EXPECT_EQ(table.facts(i).hemicubes, i);
       expect_same(row.pairs, pairs[i]);
       expect_same(table.others(i), others[i]);
     }
