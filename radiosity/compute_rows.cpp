@@ -64,7 +64,7 @@ Status build_missing_rows(RowGeometry* geometry, const RungSetting& setting, con
       first);
   kept->report(std::max(first, run.pair_rows_kept()));
   if (!built.ok())
-    static_cast<void>(matrix->flush()); // what it cannot keep is lost, and nothing else
+    matrix->flush_if_due();
   return built.ok() ? kept->finish(matrix) : built;
 }
 

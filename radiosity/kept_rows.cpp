@@ -24,6 +24,7 @@ std::uint64_t hash_options(const Options& options, std::uint64_t request) {
 void KeptRows::init(const PatchSet& patches, const Options& options,
                     std::uint64_t request) noexcept {
   patches_ = &patches;
+  options_ = &options;
   files_ = options.files;
   head_ = {};
   if (files_ == nullptr)
@@ -67,7 +68,12 @@ Status KeptRows::open(Part part, RowStorage* storage) noexcept {
   *storage = {};
   if (files_ == nullptr)
     return {};
-  storage->most_bytes = files_->most_bytes;
+  // Of rungs that find pairs first, these and the rows are there together, and pairs are larger.
+  const std::uint64_t most = files_->most_bytes, of_rows = most / 3;
+  if (most == RowStorage::kUnlimited || head_.setting().rung < Rung::kArea)
+    storage->most_bytes = most;
+  else
+    storage->most_bytes = part == Part::kPairs ? most - of_rows : of_rows;
   storage->range_bytes = files_->range_bytes;
   head_.part = part;
   files_->rows_are_finished = files_->rows_are_finished && part != Part::kRows;
@@ -103,7 +109,15 @@ Status KeptRows::read_given(FormFactorMatrix* matrix, RungSetting* setting) noex
   MatrixFileHead head;
   const RowStorage storage{files_->rows, 0, files_->most_bytes, files_->range_bytes};
   HC_TRY(open_finished(storage, *patches_, matrix, &head));
-  *setting = head.setting();
+  const RungSetting given = head.setting();
+  const bool is_other = (!options_->choose_rung && options_->rung != given.rung) ||
+                        (!options_->choose_resolution && given.rung <= Rung::kArea &&
+                         options_->resolution != given.resolution);
+  if (is_other)
+    return Status::error(StatusCode::kInvalidArgument, files_->rows->name(),
+                         ": was computed on rung ", rung_name(given.rung), ", resolution ",
+                         given.resolution, "; ask for no other, or for another file");
+  *setting = given;
   report(matrix->row_count());
   return {};
 }

@@ -42,6 +42,7 @@ private:
   ByteFile* file(Part part) const noexcept;
 
   const PatchSet* patches_ = nullptr;
+  const Options* options_ = nullptr;
   RunFiles* files_ = nullptr;
   MatrixFileHead head_;
 };

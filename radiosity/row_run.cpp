@@ -55,7 +55,7 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
       [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); }, true);
   if (!is_too_large) {
     if (!status.ok())
-      static_cast<void>(pairs_.flush()); // what is lost is only time
+      pairs_.flush_if_due();
     HC_TRY(status);
     return pairs_.transpose();
   }

@@ -143,7 +143,7 @@ Status SceneSolver::build_matrix(Certificate* certificate) {
       first);
   kept_.report(std::max(first, run_.pair_rows_kept()));
   if (!built.ok())
-    static_cast<void>(matrix_.flush()); // what it cannot keep is lost, and nothing else
+    matrix_.flush_if_due();
   HC_TRY(built);
   HC_TRY(kept_.finish(&matrix_));
   return options_.balance
@@ -243,7 +243,7 @@ Status SceneSolver::gather_black_irradiance() {
       },
       first);
   if (!built.ok() && are_kept)
-    static_cast<void>(black_rows.flush());
+    black_rows.flush_if_due();
   return built;
 }
 

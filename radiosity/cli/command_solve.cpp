@@ -55,6 +55,7 @@ Status run_solve(const CommandLine& line) {
     HC_TRY(session.choose_camera(&camera));
     HC_TRY(begin_solution(&files, line.output));
   }
+  HC_TRY(session.begin_files(line.output.empty() ? "" : line.output + "/form_factors.hcf"));
   Solution solution;
   Certificate certificate;
   const Status solved = session.solve(&solution, &certificate);

@@ -51,6 +51,26 @@ std::uint32_t parse_whole_number(std::string_view text, std::uint32_t min, std::
   return value;
 }
 
+std::uint64_t parse_memory_size(std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  constexpr Unit kUnits[] = {{"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40},
+                             {"kB", 1e3},     {"MB", 1e6},     {"GB", 1e9},     {"TB", 1e12}};
+  double value = 0, unit = 1;
+  std::string_view number = text;
+  for (const Unit& known : kUnits)
+    if (text.ends_with(known.name)) {
+      number.remove_suffix(known.name.size());
+      unit = known.bytes;
+      break;
+    }
+  if (!read_number(number, &value) || !(value * unit >= 1) || !(value * unit < 0x1p60))
+    throw BadValue("must be a size such as 4GiB, 500MB or 1000000 (bytes)");
+  return static_cast<std::uint64_t>(value * unit);
+}
+
 double parse_real_number(std::string_view text, double min, double max) {
   double value = 0;
   if (read_number(text, &value) && std::isfinite(value) && value > min && value < max)

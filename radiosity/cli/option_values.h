@@ -19,6 +19,9 @@ std::uint32_t parse_whole_number(std::string_view text, std::uint32_t min, std::
 /// A finite number with min < number < max.
 double parse_real_number(std::string_view text, double min, double max);
 
+/// "4GiB", "500MB", "1e6" bytes, > 0.
+std::uint64_t parse_memory_size(std::string_view text);
+
 /// Three finite numbers, "x,y,z".
 Vec3 parse_vector(std::string_view text);
 

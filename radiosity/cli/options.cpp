@@ -147,6 +147,10 @@ private:
                                  line_.threads = parse_whole_number(text, 1, kMaxThreads);
                                }));
     common.push_back(add_value(
+        &app_, "--memory", "SIZE",
+        "most memory to use, say 4GiB: what does not fit is kept in files [most of the machine's]",
+        [&](const std::string& text) { line_.memory_bytes = parse_memory_size(text); }));
+    common.push_back(add_value(
         &app_, "--isa", "NAME", concat("instruction set: ", raster::kernel_names(), " [the best]"),
         [&](const std::string& text) { options.kernels = parse_isa(text); }));
     common.push_back(app_.add_flag("--hash-items", options.hash_items,
@@ -169,8 +173,15 @@ private:
     sub->add_flag_callback(
         "--no-black-irradiance", [this] { line_.options.black_irradiance = false; },
         "do not gather the irradiance of patches that reflect nothing");
+    add_form_factors(sub);
     add_exposure(sub);
     add_require(sub, true);
+  }
+
+  CLI::Option* add_form_factors(CLI::App* sub) {
+    return add_path(sub, "--form-factors", "FILE.hcf",
+                    "use the form factors of this file, or compute them and keep them there",
+                    &line_.form_factors);
   }
 
   void add_require(CLI::App* sub, bool solves) {
@@ -184,18 +195,26 @@ private:
 
   void add_formfactors() {
     CLI::App* sub = add_command(Command::kFormFactors, "formfactors",
-                                "Compute form factors: FILE.mtx (Matrix Market) and FILE.rows.csv");
+                                "Compute form factors: FILE.mtx (Matrix Market) and "
+                                "FILE.rows.csv, or FILE.hcf to solve with");
     add_scene(sub, &line_);
-    add_path(sub, "-o", "FILE.mtx", "file to write [none: print a summary only]", &line_.output);
+    add_path(sub, "-o", "FILE",
+             "file to write: .mtx, .hcf, or .csv with --by-group [none: print a summary only]",
+             &line_.output);
+    add_form_factors(sub);
+    CLI::Option* by_group = sub->add_flag("--by-group", line_.by_group,
+                                          "form factors of groups instead of patches, into a .csv");
     CLI::Option* rows = add_value(sub, "--rows", "SELECTION",
                                   "rows of these patches only: every:N or I,J,K (from 0) [all]",
                                   [this](const std::string& text) {
                                     line_.rows = parse_rows(text);
                                     rows_are_given_ = true;
                                   });
-    add_path(sub, "--points", "FILE.csv",
-             "rows of points instead of patches; columns x,y,z,nx,ny,nz, metres", &line_.points)
-        ->excludes(rows);
+    CLI::Option* points = add_path(
+        sub, "--points", "FILE.csv",
+        "rows of points instead of patches; columns x,y,z,nx,ny,nz, metres", &line_.points);
+    points->excludes(rows);
+    by_group->excludes(rows)->excludes(points);
     add_require(sub, false);
   }
 

@@ -56,6 +56,9 @@ struct CommandLine {
   std::string input;         ///< SCENE, DIR, or DIR|SCENE
   std::string output;        ///< -o; empty = none
 
+  std::string form_factors;                 ///< solve, formfactors: a .hcf; empty = none
+  std::uint64_t memory_bytes = 0;           ///< most that may be used; 0 = chosen
+  bool by_group = false;                    ///< formfactors --by-group
   std::string points;                       ///< formfactors, probe; empty = rows of patches
   RowSelection rows;                        ///< formfactors --rows
   std::string scene;                        ///< render, probe; empty = none

@@ -118,13 +118,15 @@ double closure_error(const Solution& solution) {
   return worst;
 }
 
-double closure_error(const FormFactorMatrix& matrix) {
-  double worst = 0;
-  for (std::uint64_t i = 0; i < matrix.row_count(); ++i) {
-    const RowView row = matrix.row(i);
-    worst = std::max(worst, std::fabs(row_sum(row) + row.space + row.back_side - 1));
-  }
-  return worst;
+Status closure_error(const FormFactorMatrix& matrix, double* error) {
+  *error = 0;
+  return matrix.for_each_range([&](std::size_t first, std::size_t last) {
+    for (std::uint64_t i = matrix.block_begin(first); i < matrix.block_end(last - 1); ++i) {
+      const RowView row = matrix.row(i);
+      *error = std::max(*error, std::fabs(row_sum(row) + row.space + row.back_side - 1));
+    }
+    return Status();
+  });
 }
 
 std::string known_conditions(bool solves) {

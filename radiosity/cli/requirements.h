@@ -17,7 +17,7 @@ struct CheckedRun {
 };
 
 double closure_error(const Solution& solution);
-double closure_error(const FormFactorMatrix& matrix);
+Status closure_error(const FormFactorMatrix& matrix, double* error);
 
 /// "closed, closure=X, ...": the conditions a command knows.
 /// @param solves  whether it computes light

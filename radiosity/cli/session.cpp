@@ -1,9 +1,12 @@
 #include "radiosity/cli/session.h"
 
 #include "radiosity/cli/console.h"
+#include "radiosity/cli/memory_plan.h"
 #include "radiosity/light_model.h"
 #include "radiosity/output/camera_view.h"
+#include "radiosity/output/file_set.h"
 #include "radiosity/output/report_json.h"
+#include "radiosity/scene/text_cursor.h"
 #include "raster/kernels.h"
 
 #include <filesystem>
@@ -33,10 +36,34 @@ Status Session::begin(const std::string& scene_path) {
   return {};
 }
 
+Status Session::begin_files(const std::string& output) {
+  FileSet probe;
+  std::string name;
+  if (!line.form_factors.empty()) {
+    HC_TRY(kept_.begin_or_read_hcf(line.form_factors));
+    if (!kept_.files.rows_are_given)
+      HC_TRY(probe.begin_file(line.form_factors, &name));
+  } else if (has_extension(output, ".hcf")) {
+    HC_TRY(kept_.begin_hcf(output));
+  } else {
+    HC_TRY(kept_.begin(output));
+  }
+  MemoryPlan plan;
+  HC_TRY(plan_memory(line.memory_bytes, loaded.patches.patch_count(), loaded.scene.band_count(),
+                     pool_.worker_count(), &plan));
+  kept_.files.most_bytes = plan.most_rows;
+  kept_.files.range_bytes = plan.row_range;
+  options_.files = &kept_.files;
+  return {};
+}
+
 template <typename Work> Status Session::compute(Work work) {
   ProgressReport progress(line.quiet);
-  const Status status = work(&progress);
+  Status status = work(&progress);
   progress.finish();
+  if (options_.files != nullptr)
+    status = kept_.finish(status);
+  run.rows_resumed = kept_.files.rows_resumed;
   run.build_seconds = progress.seconds(ProgressReport::kBuild);
   run.form_factor_seconds = progress.seconds(ProgressReport::kRows);
   run.balance_seconds = progress.seconds(ProgressReport::kBalance);
@@ -46,10 +73,12 @@ template <typename Work> Status Session::compute(Work work) {
 
 Status Session::solve(Solution* solution, Certificate* certificate) {
   const Status status = compute([&](Progress* progress) {
-    return solve_scene(loaded.scene, loaded.patches, line.options, pool_, progress, solution,
+    return solve_scene(loaded.scene, loaded.patches, options_, pool_, progress, solution,
                        certificate);
   });
-  if (status.code() == StatusCode::kSingular || status.code() == StatusCode::kBadScene)
+  const bool is_of_scene = status.code() == StatusCode::kSingular ||
+                           (status.code() == StatusCode::kBadScene && !kept_.files.rows_are_given);
+  if (is_of_scene)
     return Status::error(status.code(), scene_path_, ": ", status.message());
   return status;
 }
@@ -57,11 +86,11 @@ Status Session::solve(Solution* solution, Certificate* certificate) {
 Status Session::form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
                              Certificate* certificate) {
   const Status status = compute([&](Progress* progress) {
-    return compute_form_factors(loaded.patches, rows, line.options, pool_, progress, matrix,
+    return compute_form_factors(loaded.patches, rows, options_, pool_, progress, matrix,
                                 certificate);
   });
   certificate->scene_hash = hash_scene(loaded.scene, loaded.patches);
-  if (status.code() == StatusCode::kBadScene)
+  if (status.code() == StatusCode::kBadScene && !kept_.files.rows_are_given)
     return Status::error(status.code(), scene_path_, ": ", status.message());
   return status;
 }

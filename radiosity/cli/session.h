@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/cli/kept_files.h"
 #include "radiosity/cli/load_scene.h"
 #include "radiosity/cli/options.h"
 #include "radiosity/cli/progress.h"
@@ -14,11 +15,17 @@ namespace hemicube::radiosity::cli {
 class Session {
 public:
   /// @param command_line  must outlive the session
-  explicit Session(const CommandLine& command_line) : line(command_line) {}
+  explicit Session(const CommandLine& command_line)
+      : line(command_line), options_(command_line.options) {}
 
   /// Loads the scene, warns of what was skipped and repaired, and starts the workers.
   Status begin(const std::string& scene_path);
 
+  /// Prepares the files of form factors that the command line names, and those that an interrupted
+  /// run leaves beside `output`; shares out the memory there is. Call it once, before the work.
+  Status begin_files(const std::string& output);
+
+  /// @return also what became of the files of form factors
   Status solve(Solution* solution, Certificate* certificate);
   /// @param rows  of these patches; empty = of all
   Status form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
@@ -48,6 +55,8 @@ private:
 
   std::string scene_path_;
   ThreadPool pool_;
+  Options options_; ///< the command line's, with the files
+  KeptFiles kept_;
 };
 
 /// "; worst space 0.25 (patch 3), back side 0.5 (patch 7)", without what is zero everywhere.

@@ -49,8 +49,7 @@ public:
   /// Appends the next row of a block; rows come in ascending order.
   Status append_row(std::size_t block, const ReceiverExchange& row, const RowFacts& facts) noexcept;
 
-  /// Brings all finished blocks that follow each other from the first on to the file.
-  Status flush() noexcept { return rows_.flush(); }
+  void flush_if_due() noexcept { rows_.flush_if_due(); }
 
   /// What the rows that are there and their transpose take in memory, at most.
   std::uint64_t byte_count() const noexcept { return 2 * rows_.byte_count(); }

@@ -115,6 +115,7 @@ public:
 
   /// Brings all finished blocks that follow each other from the first on to the file.
   Status flush() noexcept { return rows_.flush(); }
+  void flush_if_due() noexcept { rows_.flush_if_due(); }
 
   /// The values of a row, to be changed in place; empty until it was appended. The matrix must be
   /// in memory.

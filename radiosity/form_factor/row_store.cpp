@@ -101,6 +101,12 @@ Status RowStore::flush() noexcept {
   return storage_.file == nullptr ? Status() : write_finished();
 }
 
+void RowStore::flush_if_due() noexcept {
+  const std::lock_guard lock(mutex_);
+  if (storage_.file != nullptr && storage_.file->is_due())
+    static_cast<void>(write_finished());
+}
+
 Status RowStore::write_finished() noexcept {
   for (std::size_t block = offsets_.size() - 1; block < blocks_.size() && is_finished(block);
        ++block) {

@@ -77,6 +77,9 @@ public:
 
   /// Brings all finished blocks that follow each other from the first on to the file.
   Status flush() noexcept;
+  /// The same if the file says that it is time: what a run that ends early leaves. What it cannot
+  /// leave is lost, and nothing else.
+  void flush_if_due() noexcept;
 
   /// Calls Status visit(first, last) for ranges of blocks that follow each other and make up
   /// first_block .. last_block - 1; all ranges but the last end at multiples of kRangeBlocks. While

@@ -77,6 +77,7 @@ struct RunReport {
   double balance_seconds = 0;     ///< reciprocity before included
   double solve_seconds = 0, write_seconds = 0;
   std::uint64_t peak_memory_bytes = 0;
+  std::uint64_t rows_resumed = 0; ///< that were there and not computed
 };
 
 } // namespace hemicube::radiosity

@@ -15,6 +15,14 @@ struct RowNames {
   std::uint64_t operator[](std::uint64_t k) const { return rows.empty() ? k : rows[k]; }
 };
 
+template <typename Visit> Status for_each_row(const FormFactorMatrix& matrix, Visit visit) {
+  return matrix.for_each_range([&](std::size_t first, std::size_t last) {
+    for (std::uint64_t k = matrix.block_begin(first); k < matrix.block_end(last - 1); ++k)
+      visit(k, matrix.row(k));
+    return Status();
+  });
+}
+
 Status write_entries(FileSet* files, std::string_view name, const FormFactorMatrix& matrix,
                      const RowNames& names) {
   FileWriter writer;
@@ -33,8 +41,7 @@ Status write_entries(FileSet* files, std::string_view name, const FormFactorMatr
   text += ' ';
   append_number(&text, matrix.nonzero_count());
   text += '\n';
-  for (std::uint64_t k = 0; k < matrix.row_count(); ++k) {
-    const RowView row = matrix.row(k);
+  HC_TRY(for_each_row(matrix, [&](std::uint64_t k, const RowView& row) {
     for (std::size_t e = 0; e < row.columns.size(); ++e) {
       append_number(&text, names[k] + 1);
       text += ' ';
@@ -44,7 +51,7 @@ Status write_entries(FileSet* files, std::string_view name, const FormFactorMatr
       text += '\n';
       writer.flush_if_large();
     }
-  }
+  }));
   return writer.close();
 }
 
@@ -55,8 +62,7 @@ Status write_rows(FileSet* files, const std::string& name, const FormFactorMatri
   std::string& text = writer.text();
   text += names.patches == nullptr ? "point,row_sum,space,back_side\n"
                                    : "patch,area,row_sum,space,back_side\n";
-  for (std::uint64_t k = 0; k < matrix.row_count(); ++k) {
-    const RowView row = matrix.row(k);
+  HC_TRY(for_each_row(matrix, [&](std::uint64_t k, const RowView& row) {
     append_number(&text, names[k]);
     if (names.patches != nullptr) {
       text += ',';
@@ -68,7 +74,7 @@ Status write_rows(FileSet* files, const std::string& name, const FormFactorMatri
     }
     text += '\n';
     writer.flush_if_large();
-  }
+  }));
   return writer.close();
 }
 
@@ -87,6 +93,11 @@ Status write_point_matrix_market(FileSet* files, std::string_view name,
   const RowNames names{nullptr, {}, matrix.row_count()};
   HC_TRY(write_entries(files, name, matrix, names));
   return write_rows(files, rows_file_name(name), matrix, names);
+}
+
+Status write_row_sums(FileSet* files, std::string_view name, const FormFactorMatrix& matrix,
+                      const PatchSet& patches) {
+  return write_rows(files, rows_file_name(name), matrix, {&patches, {}, patches.patch_count()});
 }
 
 std::string rows_file_name(std::string_view name) {

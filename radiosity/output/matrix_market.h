@@ -24,6 +24,10 @@ Status write_matrix_market(FileSet* files, std::string_view name, const FormFact
 Status write_point_matrix_market(FileSet* files, std::string_view name,
                                  const FormFactorMatrix& matrix);
 
+/// FILE.rows.csv alone, for a matrix of all patches that is in a file already.
+Status write_row_sums(FileSet* files, std::string_view name, const FormFactorMatrix& matrix,
+                      const PatchSet& patches);
+
 /// `F.rows.csv` for `F.mtx`.
 std::string rows_file_name(std::string_view name);
 

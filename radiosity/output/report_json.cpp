@@ -185,6 +185,7 @@ Json run_json(const ReportParts& parts) {
     set(&seconds, "solve", run.solve_seconds);
   set(&seconds, "write", run.write_seconds);
   json["peak_memory_bytes"] = run.peak_memory_bytes;
+  json["rows_resumed"] = run.rows_resumed;
   return json;
 }
 

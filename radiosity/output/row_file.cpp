@@ -184,9 +184,9 @@ Status RowFile::rename(const std::string& path) {
 }
 
 void RowFile::remove() noexcept {
-  if (descriptor_ >= 0 && !is_temporary_)
+  if (is_on_disk())
     ::unlink(path_.c_str());
-  close();
+  is_temporary_ = true;
 }
 
 void RowFile::close() noexcept {

@@ -29,8 +29,11 @@ public:
 
   /// Puts the file in its final place, with all bytes on the disk. @return kIo
   Status rename(const std::string& path);
-  /// Closes and deletes the file, if it was made.
+  /// Deletes the file, if it was made. It can be used until it is destroyed.
   void remove() noexcept;
+
+  /// Whether there is something that outlives the process.
+  bool is_on_disk() const noexcept { return descriptor_ >= 0 && !is_temporary_; }
 
   std::string_view name() const noexcept override { return path_; }
   std::uint64_t size() const noexcept override { return size_; }
