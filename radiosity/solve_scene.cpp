@@ -161,8 +161,9 @@ Status SceneSolver::solve(Certificate* certificate) {
                              is_black.span()));
   SweepsToProgress progress(progress_);
   Convergence convergence;
-  const Status status = gauss_seidel(matrix_, problem_, {options_.tolerance, options_.max_sweeps},
-                                     executor_, &progress, &radiosity_, &irradiance_, &convergence);
+  const SolverOptions options = {options_.tolerance, options_.max_sweeps, options_.kernels};
+  const Status status = gauss_seidel(matrix_, problem_, options, executor_, &progress, &radiosity_,
+                                     &irradiance_, &convergence);
   certificate->solved = status.ok() || status.code() == StatusCode::kNotConverged;
   certificate->residual = convergence.residual;
   certificate->estimated_error = convergence.estimated_error;

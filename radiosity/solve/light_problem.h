@@ -5,6 +5,10 @@
 #include <cstdint>
 #include <string_view>
 
+namespace hemicube::raster {
+struct Kernels;
+}
+
 namespace hemicube::radiosity {
 
 /// B_i = E_i + rho_i (sum_j F_ij B_j + s_i E_space) for every patch i and band: what the solvers
@@ -32,6 +36,7 @@ struct LightProblem {
 struct SolverOptions {
   double tolerance = 1e-6; ///< on the estimated relative error of B; > 0
   std::uint64_t max_sweeps = 1000000;
+  const raster::Kernels* kernels = nullptr; ///< instruction set; null = the best this machine has
 };
 
 /// How far a solver came. Errors are relative to the largest |B| of a band; the worst band counts.

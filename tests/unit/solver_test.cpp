@@ -1,10 +1,12 @@
 #include "radiosity/parallel/executor.h"
 #include "radiosity/parallel/thread_pool.h"
 #include "radiosity/solve/gauss_seidel.h"
+#include "raster/simd/dispatch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -308,6 +310,62 @@ TEST(GaussSeidel, RefusesATolerance) {
     solve(equal_room(3, 0.5, 1), &got, tolerance);
     EXPECT_EQ(got.status.code(), StatusCode::kInvalidArgument);
   }
+}
+
+/// n patches of two groups of walls that see each other at random, three bands, some black.
+System random_room(std::size_t n, std::uint32_t bands) {
+  std::mt19937 random(3);
+  const auto uniform = [&] { return static_cast<double>(random() >> 8) / 16777216.0; };
+  System s;
+  s.bands = bands;
+  s.space_exitance.assign(bands, 0.1);
+  std::vector<std::vector<double>> exchange(n, std::vector<double>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    s.area.push_back(0.5 + uniform());
+    for (std::size_t j = 0; j < i; ++j)
+      exchange[i][j] = exchange[j][i] = uniform() < 0.6 ? 0 : uniform() / static_cast<double>(n);
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      s.reflectance.push_back(i % 11 == 0 ? 0 : 0.9 * uniform());
+      s.exitance.push_back(i % 13 == 0 ? uniform() : 0);
+    }
+  }
+  s.f = exchange;
+  for (std::size_t i = 0; i < n; ++i) // reciprocal; what is missing to 1 is space
+    for (double& f : s.f[i])
+      f /= s.area[i];
+  return s;
+}
+
+bool same_bits(const Buffer<double>& a, const Buffer<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+// Catches: work that is shared out by the number of workers, and kernels that differ.
+TEST(GaussSeidel, ThreadsAndInstructionSetsGiveTheSameBits) {
+  const System s = random_room(900, 3);
+  FormFactorMatrix matrix;
+  s.fill(&matrix);
+  Buffer<double> first_b, first_h;
+  for (const char* isa : {"scalar", "sse41", "avx2", "avx512"})
+    for (const std::uint32_t threads : {1u, 2u, 3u, 7u}) {
+      SolverOptions options;
+      options.kernels = raster::kernels_by_name(isa);
+      if (options.kernels == nullptr)
+        continue;
+      ThreadPool pool;
+      ASSERT_TRUE(pool.init(threads).ok());
+      Outcome got;
+      ASSERT_TRUE(gauss_seidel(matrix, s.problem(), options, pool, nullptr, &got.b, &got.h,
+                               &got.convergence)
+                      .ok());
+      if (first_b.empty()) {
+        first_b.swap(got.b);
+        first_h.swap(got.h);
+        continue;
+      }
+      EXPECT_TRUE(same_bits(got.b, first_b)) << isa << ", " << threads << " threads";
+      EXPECT_TRUE(same_bits(got.h, first_h)) << isa << ", " << threads << " threads";
+    }
 }
 
 class StopAtOnce final : public SolverProgress {
