@@ -58,6 +58,25 @@ std::string camera_text(const Scene& scene) {
                 camera.width, "x", camera.height);
 }
 
+std::string time_text(double seconds) {
+  return seconds < 120    ? concat(rounded(seconds), " s")
+         : seconds < 7200 ? concat(rounded(seconds / 60), " min")
+                          : concat(rounded(seconds / 3600), " h");
+}
+
+std::string cost_text(const Session& session, const RunCost& cost) {
+  const Forecast& f = cost.forecast;
+  std::string how = concat("rung ", rung_name(f.setting.rung));
+  if (f.setting.rung <= Rung::kArea)
+    how += concat(", resolution ", f.setting.resolution);
+  return concat("about ", time_text(cost.seconds), " on ",
+                counted(session.run.threads, "thread", "threads"), ", ",
+                time_text(cost.form_factor_seconds), " of it form factors, and ",
+                memory_text(cost.memory_bytes), " of memory, ", memory_text(cost.matrix_bytes),
+                " of it matrix (", how, "; from ", counted(f.rows, "sample row", "sample rows"),
+                " of ", rounded(cost.nonzeros_per_row), " entries)");
+}
+
 void print_text(const Session& session, const SceneFacts& facts) {
   const Scene& scene = session.loaded.scene;
   const PatchSet& patches = session.loaded.patches;
@@ -85,13 +104,7 @@ void print_text(const Session& session, const SceneFacts& facts) {
   if (changes.empty())
     print_line("changed", "nothing skipped, nothing repaired");
   print_line("scene hash", hex(facts.scene_hash));
-  print_line("cost", concat("about ", rounded(facts.seconds), " s for the form factors on ",
-                            counted(session.run.threads, "thread", "threads"), ", ",
-                            memory_text(facts.matrix_bytes), " of matrix (from ",
-                            counted(facts.sample_rows, "sample row", "sample rows"), " of ",
-                            rounded(facts.nonzeros_per_row), " entries on rung ",
-                            rung_name(session.line.options.rung), ", resolution ",
-                            session.line.options.resolution, ")"));
+  print_line("cost", cost_text(session, facts.cost));
 }
 
 Json vector_json(const Vec3& v) {
@@ -140,11 +153,16 @@ void print_json(const Session& session, const SceneFacts& facts) {
     json["camera"] = camera_json(scene.camera);
   json["changed"] = warnings(session.loaded);
   json["hashes"]["scene"] = hex(facts.scene_hash);
-  json["cost"] = {{"sample_rows", facts.sample_rows},
-                  {"nonzeros_per_row", facts.nonzeros_per_row},
-                  {"matrix_bytes", facts.matrix_bytes},
-                  {"form_factor_seconds", facts.seconds},
-                  {"resolution", session.line.options.resolution},
+  const Forecast& f = facts.cost.forecast;
+  json["cost"] = {{"sample_rows", f.rows},
+                  {"nonzeros_per_row", facts.cost.nonzeros_per_row},
+                  {"matrix_bytes", facts.cost.matrix_bytes},
+                  {"memory_bytes", facts.cost.memory_bytes},
+                  {"form_factor_seconds", facts.cost.form_factor_seconds},
+                  {"seconds", facts.cost.seconds},
+                  {"rung", rung_name(f.setting.rung)},
+                  {"resolution", f.setting.resolution},
+                  {"target", f.setting.target},
                   {"threads", session.run.threads}};
   print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -89,8 +89,7 @@ public:
     if (line_.options.kernels == nullptr)
       line_.options.kernels = &raster::best_kernels();
     // Some rows, to look at or to time: nothing is chosen by other rows unless asked for.
-    const bool shows_rows =
-        rows_are_given_ || line_.command == Command::kLook || line_.command == Command::kInfo;
+    const bool shows_rows = rows_are_given_ || line_.command == Command::kLook;
     if (shows_rows && !error_is_given_)
       line_.options.choose_rung = line_.options.choose_resolution = false;
   }

@@ -7,8 +7,6 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
-constexpr std::uint64_t kSampleRows = 16;
-
 Status gather_light(const LoadedScene& loaded, SceneFacts* facts) {
   const PatchSet& patches = loaded.patches;
   LightModel light;
@@ -46,32 +44,13 @@ void gather_bounds(const PatchSet& patches, SceneFacts* facts) {
   }
 }
 
-Status estimate_cost(Session* session, SceneFacts* facts) {
-  const std::uint64_t count = session->loaded.patches.patch_count();
-  std::vector<std::uint32_t> rows;
-  for (std::uint64_t k = 0; k < std::min(count, kSampleRows); ++k)
-    rows.push_back(static_cast<std::uint32_t>(k * count / std::min(count, kSampleRows)));
-  FormFactorMatrix matrix;
-  Certificate certificate;
-  HC_TRY(session->form_factors(rows, &matrix, &certificate));
-  const double sampled = static_cast<double>(rows.size());
-  facts->sample_rows = rows.size();
-  facts->nonzeros_per_row = static_cast<double>(certificate.nonzeros) / sampled;
-  facts->matrix_bytes = static_cast<double>(count - facts->black_patches) *
-                        facts->nonzeros_per_row * (sizeof(std::uint32_t) + sizeof(float));
-  // The sample is one block of rows, and so the work of one thread.
-  facts->seconds = session->run.form_factor_seconds / sampled * static_cast<double>(count) /
-                   static_cast<double>(session->run.threads);
-  return {};
-}
-
 } // namespace
 
 Status gather_facts(Session* session, SceneFacts* facts) {
   HC_TRY(gather_light(session->loaded, facts));
   gather_bounds(session->loaded.patches, facts);
   facts->scene_hash = hash_scene(session->loaded.scene, session->loaded.patches);
-  return estimate_cost(session, facts);
+  return predict_cost(session, &facts->cost);
 }
 
 } // namespace hemicube::radiosity::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiosity/cli/session.h"
+#include "radiosity/cli/run_cost.h"
 
 #include <string>
 #include <vector>
@@ -19,13 +19,10 @@ struct SceneFacts {
   Vec3 low{0, 0, 0}, high{0, 0, 0}; ///< bounding box of the patches
   std::uint64_t scene_hash = 0;
 
-  std::uint64_t sample_rows = 0; ///< hemicubes the estimates come from
-  double nonzeros_per_row = 0;
-  double matrix_bytes = 0; ///< of the rows the solver keeps
-  double seconds = 0;      ///< for all hemicubes, on the threads of the session
+  RunCost cost;
 };
 
-/// Gathers the facts of a session's scene; renders some hemicubes, evenly spread over the patches.
+/// Gathers the facts of a session's scene; computes some rows, evenly spread over the patches.
 Status gather_facts(Session* session, SceneFacts* facts);
 
 } // namespace hemicube::radiosity::cli

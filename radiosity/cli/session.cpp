@@ -43,7 +43,7 @@ Status Session::begin_files(const std::string& output) {
     HC_TRY(kept_.begin_or_read_hcf(line.form_factors));
     if (!kept_.files.rows_are_given)
       HC_TRY(probe.begin_file(line.form_factors, &name));
-  } else if (has_extension(output, ".hcf")) {
+  } else if (has_extension(line.output, ".hcf")) {
     HC_TRY(kept_.begin_hcf(output));
   } else {
     HC_TRY(kept_.begin(output));
@@ -103,6 +103,10 @@ Status Session::point_form_factors(std::span<const Receiver> points, FormFactorM
   });
   certificate->scene_hash = hash_scene(loaded.scene, loaded.patches);
   return status;
+}
+
+Status Session::forecast(ForecastProgress* progress, Forecast* forecast) {
+  return radiosity::forecast(loaded.scene, loaded.patches, line.options, pool_, progress, forecast);
 }
 
 Status Session::choose_camera(Camera* camera) const {

@@ -4,6 +4,7 @@
 #include "radiosity/cli/load_scene.h"
 #include "radiosity/cli/options.h"
 #include "radiosity/cli/progress.h"
+#include "radiosity/forecast.h"
 #include "radiosity/output/report_json.h"
 #include "radiosity/parallel/thread_pool.h"
 
@@ -32,6 +33,9 @@ public:
                       Certificate* certificate);
   Status point_form_factors(std::span<const Receiver> points, FormFactorMatrix* matrix,
                             Certificate* certificate);
+
+  /// Does a little of what `solve` would do.
+  Status forecast(ForecastProgress* progress, Forecast* forecast);
 
   /// The scene's camera, or one that shows all of it, changed as the command line says.
   /// @return if it shows nothing: kBadScene for the scene's camera as it is, else kInvalidArgument
