@@ -26,7 +26,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed peers golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed growth peers golden clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -103,6 +103,15 @@ speed: deps ## error against time of every rung of accuracy, table and plots, in
 	@if command -v gnuplot >/dev/null; then for table in bench/results/*/speed_error.csv; do \
 	  gnuplot -e "folder='$$(dirname $$table)'" bench/speed/plot.gp; done; \
 	else echo "speed: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
+
+GROWTH_OPTIONS ?= --rung hemicube --resolution 128 --threads 2
+growth: deps ## time and memory of whole runs of the program on larger and larger scenes, into bench/results
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target hemicube --target growth
+	@$(BUILD)/growth $(BUILD)/hemicube bench/results "$(GROWTH_OPTIONS)"
+	@if command -v gnuplot >/dev/null; then for table in bench/results/*/growth.csv; do \
+	  gnuplot -e "folder='$$(dirname $$table)'" bench/growth/plot.gp; done; \
+	else echo "growth: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
 
 peers: deps ## install other programs and time them beside this one into bench/results
 	$(call install,$(PEER_PACKAGES))

@@ -1,31 +1,27 @@
-// Writes an office (tests/support/office.h) as a scene file for the program: office_obj ROOMS_X
-// ROOMS_Y STOREYS CELL FILE.obj, CELL in metres. FILE.mtl goes beside it.
+#include "bench/growth/office_file.h"
 
 #include "radiosity/output/file_set.h"
 #include "radiosity/output/number_text.h"
-#include "tests/support/office.h"
 
-#include <cstdio>
-#include <cstdlib>
-
+namespace hemicube::bench {
 namespace {
 
-using namespace hemicube;
 using radiosity::append_number;
 
 std::string materials_text(const radiosity::Scene& scene) {
   std::string text;
+  const auto add = [&](const char* key, const Buffer<double>& values, std::uint32_t material) {
+    text += key;
+    for (std::uint32_t b = 0; b < 3; ++b) {
+      text += ' ';
+      append_number(&text, values[material * scene.band_count() + b % scene.band_count()]);
+    }
+    text += '\n';
+  };
   for (std::uint32_t m = 0; m < scene.materials.size(); ++m) {
     text += "newmtl " + std::string(scene.materials[m]) + '\n';
-    for (const auto& [key, values] :
-         {std::pair("Kd", &scene.reflectance), {"Ke", &scene.exitance}}) {
-      text += key;
-      for (std::uint32_t b = 0; b < 3; ++b) {
-        text += ' ';
-        append_number(&text, (*values)[m * scene.band_count() + (b < scene.band_count() ? b : 0)]);
-      }
-      text += '\n';
-    }
+    add("Kd", scene.reflectance, m);
+    add("Ke", scene.exitance, m);
   }
   return text;
 }
@@ -59,19 +55,15 @@ std::string faces_text(const radiosity::Scene& scene, const std::string& library
 
 } // namespace
 
-int main(int argc, char** argv) {
-  if (argc != 6) {
-    std::fprintf(stderr, "usage: office_obj ROOMS_X ROOMS_Y STOREYS CELL FILE.obj\n");
-    return 2;
-  }
-  const radiosity::Scene scene = test::office(
-      {std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]), std::strtod(argv[4], nullptr)});
+void write_office(const test::OfficePlan& plan, const std::string& path) {
+  const radiosity::Scene scene = test::office(plan);
   radiosity::FileSet files;
   std::string name;
-  test::require(files.begin_file(argv[5], &name));
+  test::require(files.begin_file(path, &name));
   const std::string library = name.substr(0, name.rfind('.')) + ".mtl";
   test::require(files.add(name, faces_text(scene, library)));
   test::require(files.add(library, materials_text(scene)));
   test::require(files.commit());
-  return 0;
 }
+
+} // namespace hemicube::bench
