@@ -16,9 +16,9 @@ struct alignas(64) Node {
   float half[3][kBatch];  ///< half extents; negative where there is no child
   float axis[3][kBatch];  ///< mean unit normal of the fronts of a cluster's polygons
   float spread[kBatch];   ///< how far a unit normal can be from the axis; 2 = anything
-  uint32_t child[kBatch]; ///< index of a node, or of a cluster if `leaf`
+  uint32_t child[kBatch]; ///< index of a node, or of a cluster
   int32_t count;
-  int32_t leaf;
+  uint32_t clusters; ///< bit c: child c is a cluster
 };
 
 /// What a window of a face sees, for boxes: single precision, every bound widened by what rounding
@@ -31,6 +31,7 @@ struct NodeProblem {
   float frame[3][3];   ///< right, up, forward
   float x_scale, x_offset, y_scale, y_offset; ///< column of the window = x/z * scale + offset
   float columns, rows;                        ///< of the window
+  int32_t find_away;                          ///< NodeResult::away is asked for
 };
 
 /// What a node's children may touch of a window.
@@ -39,7 +40,7 @@ struct alignas(64) NodeResult {
   int32_t x_begin[kBatch], x_end[kBatch]; ///< pixels of the window
   int32_t y_begin[kBatch], y_end[kBatch];
   uint32_t reached; ///< bit c: child c may touch the window
-  uint32_t away;    ///< bit c: all of child c's polygons are seen from the back
+  uint32_t away;    ///< bit c: all polygons of child c, a cluster, are seen from the back
 };
 
 /// Up to kBatch polygons, in double.

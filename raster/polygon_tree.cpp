@@ -1,5 +1,7 @@
 #include "raster/polygon_tree.h"
 
+#include "raster/polygon_groups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,11 +9,6 @@
 namespace hemicube::raster {
 
 namespace {
-
-constexpr std::size_t kMostInLeafNode = std::size_t{kBatch} * kBatch;
-
-/// Polygons a leaf node is meant to hold: some clusters stay partly empty.
-constexpr std::size_t kLeafNodeTarget = 160;
 
 struct Box {
   Vec3 low = Vec3(std::numeric_limits<double>::infinity());
@@ -23,20 +20,22 @@ struct Box {
   }
 };
 
-/// Polygons of one class share clusters: they face about the same way and have about as many
-/// corners.
-std::uint32_t class_of(const Plane& plane, std::size_t corner_count) {
+/// The axis along which a front faces most.
+std::uint8_t direction_of(const Plane& plane) {
   const Vec3& n = plane.normal;
   const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
   const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
   const bool negative = (n[axis] < 0) != plane.reversed;
-  std::uint32_t corners = 0;
-  while (std::size_t{4} << corners < corner_count)
-    ++corners;
-  return corners * 6 + static_cast<std::uint32_t>(axis * 2 + (negative ? 1 : 0));
+  return static_cast<std::uint8_t>(axis * 2 + (negative ? 1 : 0));
 }
 
-constexpr std::uint32_t kClassCount = 6 * 30;
+/// Polygons of one class have about as many corners.
+std::uint8_t corner_class_of(std::size_t corner_count) {
+  std::uint8_t result = 0;
+  while (std::size_t{4} << result < corner_count)
+    ++result;
+  return result;
+}
 
 } // namespace
 
@@ -54,13 +53,10 @@ private:
     return polygons_.corners.subspan(begin, polygons_.corner_offsets[polygon + 1] - begin);
   }
 
-  Status measure();
-  bool fits_leaf_node(Range polygons) const;
-  void split(Range polygons, std::size_t first_size) const;
-  Status add_node(Range polygons, std::uint32_t* index);
-  Status add_children(Range polygons, std::size_t parts, std::uint32_t node);
-  Status add_clusters(Range polygons, std::uint32_t node);
-  Status add_cluster(Range polygons, std::uint32_t node);
+  Status measure(Buffer<Groupable>* boxes);
+  Status add_node(const Group& group, std::uint32_t* index);
+  static const Group** next_divided(std::span<const Group*> children);
+  Range polygons_of(const Group& group) { return order_.span().subspan(group.first, group.count); }
   Status store_cluster(Range polygons);
   void set_child(std::uint32_t node, Range polygons, std::uint32_t child);
   void set_normals(Node* node, std::size_t slot, Range polygons) const;
@@ -68,119 +64,91 @@ private:
   const Polygons& polygons_;
   PolygonTree& tree_;
   Buffer<Plane> planes_;
-  Buffer<std::uint32_t> class_;
   Buffer<std::uint32_t> order_;
+  Buffer<Group> groups_;
 };
 
 Status TreeBuilder::build() {
   HC_TRY(compute_planes(polygons_, &planes_));
   HC_TRY(tree_.place_.resize(polygons_.count()));
-  HC_TRY(measure());
-  if (polygons_.count() == 0)
+  {
+    Buffer<Groupable> boxes;
+    HC_TRY(measure(&boxes));
+    HC_TRY(group_polygons(boxes.span(), order_.span(), &groups_));
+  }
+  if (groups_.empty())
     return {};
   std::uint32_t root = 0;
-  return add_node(order_.span(), &root);
+  return add_node(groups_[0], &root);
 }
 
-Status TreeBuilder::measure() {
-  HC_TRY(class_.resize(polygons_.count()));
+Status TreeBuilder::measure(Buffer<Groupable>* boxes) {
+  HC_TRY(boxes->resize(polygons_.count()));
   HC_TRY(order_.resize(polygons_.count()));
-  Box box;
+  Box all;
   std::size_t most_corners = 3;
   for (std::uint32_t p = 0; p < polygons_.count(); ++p) {
     const auto corners = corners_of(p);
+    Box box;
     for (const std::uint32_t c : corners)
       box.add(polygons_.vertices[c]);
+    all.add(box.low);
+    all.add(box.high);
     most_corners = std::max(most_corners, corners.size());
-    class_[p] = class_of(planes_[p], corners.size());
+    (*boxes)[p] = {box.low, box.high, direction_of(planes_[p]), corner_class_of(corners.size())};
     order_[p] = p;
   }
   tree_.most_corners_ = static_cast<std::int32_t>(most_corners);
   if (polygons_.count() == 0)
     return {};
-  tree_.origin_ = box.low + (box.high - box.low) * 0.5;
-  tree_.radius_ = glm::length(box.high - tree_.origin_);
+  tree_.origin_ = all.low + (all.high - all.low) * 0.5;
+  tree_.radius_ = glm::length(all.high - tree_.origin_);
   return {};
 }
 
-bool TreeBuilder::fits_leaf_node(Range polygons) const {
-  if (polygons.size() > kMostInLeafNode)
-    return false;
-  std::uint32_t sizes[kClassCount] = {};
-  for (const std::uint32_t p : polygons)
-    ++sizes[class_[p]];
-  std::uint32_t clusters = 0;
-  for (const std::uint32_t size : sizes)
-    clusters += (size + kBatch - 1) / kBatch;
-  return clusters <= kBatch;
+/// The child of a node to be replaced by its halves, or none if the node is done: the largest of
+/// those too large for a node of their own, and when there are none the smallest for which there
+/// is room as clusters.
+const Group** TreeBuilder::next_divided(std::span<const Group*> children) {
+  const Group** large = nullptr;
+  const Group** small = nullptr;
+  for (const Group*& child : children) {
+    if (child->clusters > kBatch && (large == nullptr || child->area > (*large)->area))
+      large = &child;
+    if (child->clusters > 1 && child->clusters + children.size() <= kBatch + 1 &&
+        (small == nullptr || child->clusters < (*small)->clusters))
+      small = &child;
+  }
+  return large != nullptr && children.size() < kBatch ? large : small;
 }
 
-/// Moves the `first_size` polygons that lie lowest along the longest axis to the front.
-void TreeBuilder::split(Range polygons, std::size_t first_size) const {
-  Box box;
-  for (const std::uint32_t p : polygons)
-    box.add(planes_[p].point);
-  const Vec3 size = box.high - box.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  std::nth_element(polygons.begin(), polygons.begin() + static_cast<std::ptrdiff_t>(first_size),
-                   polygons.end(), [&](std::uint32_t a, std::uint32_t b) {
-                     const double at_a = planes_[a].point[axis], at_b = planes_[b].point[axis];
-                     return at_a != at_b ? at_a < at_b : a < b;
-                   });
-}
-
-Status TreeBuilder::add_node(Range polygons, std::uint32_t* index) {
+/// Takes groups apart until they fill a node.
+Status TreeBuilder::add_node(const Group& group, std::uint32_t* index) {
   *index = static_cast<std::uint32_t>(tree_.nodes_.size());
   Node node = {};
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 0; k < kBatch; ++k)
       node.half[axis][k] = -1;
-  node.leaf = fits_leaf_node(polygons) ? 1 : 0;
   HC_TRY(tree_.nodes_.push_back(node));
-  if (node.leaf == 0) {
-    const std::size_t parts = (polygons.size() + kLeafNodeTarget - 1) / kLeafNodeTarget;
-    return add_children(polygons, std::clamp<std::size_t>(parts, 2, kBatch), *index);
+  const Group* children[kBatch] = {&group};
+  std::size_t count = 1;
+  while (const Group** divided = next_divided(std::span(children, count))) {
+    const std::uint32_t* halves = (*divided)->halves;
+    *divided = &groups_[halves[0]];
+    children[count++] = &groups_[halves[1]];
   }
-  std::sort(polygons.begin(), polygons.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return class_[a] != class_[b] ? class_[a] < class_[b] : a < b;
-  });
-  for (std::size_t begin = 0, end = 0; begin < polygons.size(); begin = end) {
-    while (end < polygons.size() && class_[polygons[end]] == class_[polygons[begin]])
-      ++end;
-    HC_TRY(add_clusters(polygons.subspan(begin, end - begin), *index));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Range polygons = polygons_of(*children[k]);
+    std::uint32_t child = tree_.cluster_count();
+    if (children[k]->is_cluster()) {
+      HC_TRY(store_cluster(polygons));
+      set_normals(&tree_.nodes_[*index], k, polygons);
+    } else {
+      HC_TRY(add_node(*children[k], &child));
+      tree_.nodes_[*index].spread[k] = 2;
+    }
+    set_child(*index, polygons, child);
   }
-  return {};
-}
-
-Status TreeBuilder::add_children(Range polygons, std::size_t parts, std::uint32_t node) {
-  if (parts > 1) {
-    const std::size_t first_parts = parts / 2;
-    const std::size_t first_size = polygons.size() * first_parts / parts;
-    split(polygons, first_size);
-    HC_TRY(add_children(polygons.first(first_size), first_parts, node));
-    return add_children(polygons.subspan(first_size), parts - first_parts, node);
-  }
-  std::uint32_t child = 0;
-  HC_TRY(add_node(polygons, &child));
-  set_child(node, polygons, child);
-  return {};
-}
-
-Status TreeBuilder::add_clusters(Range polygons, std::uint32_t node) {
-  if (polygons.size() <= kBatch)
-    return add_cluster(polygons, node);
-  const std::size_t clusters = (polygons.size() + kBatch - 1) / kBatch;
-  const std::size_t first_size = clusters / 2 * kBatch;
-  split(polygons, first_size);
-  HC_TRY(add_clusters(polygons.first(first_size), node));
-  return add_clusters(polygons.subspan(first_size), node);
-}
-
-Status TreeBuilder::add_cluster(Range polygons, std::uint32_t node) {
-  const std::uint32_t index = tree_.cluster_count();
-  HC_TRY(store_cluster(polygons));
-  set_normals(&tree_.nodes_[node], static_cast<std::size_t>(tree_.nodes_[node].count), polygons);
-  set_child(node, polygons, index);
   return {};
 }
 
@@ -261,6 +229,7 @@ void TreeBuilder::set_normals(Node* node, std::size_t slot, Range polygons) cons
   for (int k = 0; k < 3; ++k)
     node->axis[k][slot] = static_cast<float>(axis[k]);
   node->spread[slot] = static_cast<float>(spread + 0x1p-20);
+  node->clusters |= 1u << slot;
 }
 
 Status PolygonTree::build(const Polygons& polygons) {

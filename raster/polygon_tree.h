@@ -6,9 +6,10 @@
 namespace hemicube::raster {
 
 /// A set of polygons as the rasterizer walks it: clusters of up to kBatch polygons that lie close
-/// together and face the same way, their corners spread out for vectors, under nodes of up to
-/// kBatch children. It copies what it needs; one tree serves any number of rasterizers. About 200
-/// bytes a quad. What is drawn never depends on how the polygons were grouped.
+/// together and mostly face the same way, their corners spread out for vectors, under nodes of up
+/// to kBatch children, clusters or nodes. It copies what it needs; one tree serves any number of
+/// rasterizers. About 200 bytes a quad. What is drawn never depends on how the polygons were
+/// grouped.
 class PolygonTree {
 public:
   /// @return kInvalidArgument for too many polygons; kOutOfMemory

@@ -12,9 +12,6 @@ namespace {
 /// further from the eye than the scene is large cannot be reached.
 constexpr double kBoxSlack = 0x1p-19;
 
-/// Backs are drawn as if they lay farther away: the fronts of the same things mostly hide them.
-constexpr float kBacksLater = 0.25f;
-
 void copy(const Vec3& from, double to[3]) {
   for (int k = 0; k < 3; ++k)
     to[k] = from[k];
@@ -100,6 +97,7 @@ void Rasterizer::set_window(Face face, const PixelGrid& grid, const Window& wind
   n.y_offset = static_cast<float>(-grid.y0 * p.rows_per_y - p.y_begin);
   n.columns = static_cast<float>(window.width);
   n.rows = static_cast<float>(window.height);
+  n.find_away = view_.draw_backs ? 0 : 1;
 }
 
 void Rasterizer::draw(Face face, const PixelGrid& grid, ItemBuffer* buffer) {
@@ -119,25 +117,20 @@ template <typename Take>
 void Rasterizer::open_node(const Node& node, std::int32_t tile_shift, Take take) {
   NodeResult result;
   kernels_->test_node(&node, &node_problem_, &result);
-  for (std::uint32_t left = result.reached; left != 0; left &= left - 1) {
+  for (std::uint32_t left = result.reached & ~result.away; left != 0; left &= left - 1) {
     const int c = std::countr_zero(left);
     if (result.x_begin[c] >= result.x_end[c] || result.y_begin[c] >= result.y_end[c])
-      continue;
-    const bool away = (result.away >> c & 1) != 0;
-    if (away && polygon_problem_.draw_backs == 0)
       continue;
     const TileRange tiles = {result.x_begin[c] >> tile_shift, result.y_begin[c] >> tile_shift,
                              (result.x_end[c] - 1) >> tile_shift,
                              (result.y_end[c] - 1) >> tile_shift};
-    take(Visit{node.child[c], node.leaf != 0, away, tiles, result.nearest[c]});
+    take(Visit{node.child[c], (node.clusters >> c & 1) != 0, tiles, result.nearest[c]});
   }
 }
 
 void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
   queue_.begin(static_cast<float>(1 / farthest_));
-  const auto push = [&](const Visit& visit) {
-    queue_.push(visit, visit.is_away ? visit.nearest * kBacksLater : visit.nearest);
-  };
+  const auto push = [&](const Visit& visit) { queue_.push(visit); };
   open_node(tree_->nodes()[0], planes.tile_shift, push);
   while (!queue_.empty()) {
     const Visit visit = queue_.pop();

@@ -12,7 +12,6 @@ namespace hemicube::raster {
 struct Visit {
   std::uint32_t index;
   bool is_cluster;
-  bool is_away; ///< all of it is seen from the back
   TileRange tiles;
   float nearest; ///< 1/z is nowhere larger; > 0
 };
@@ -42,9 +41,8 @@ public:
   std::uint32_t room() const noexcept { return free_count_; }
 
   /// There must be room.
-  /// @param order  1/z to sort by
-  void push(const Visit& visit, float order) noexcept {
-    const std::uint32_t key = key_of(order);
+  void push(const Visit& visit) noexcept {
+    const std::uint32_t key = key_of(visit.nearest);
     const std::uint32_t above = key > base_ ? key - base_ : 0;
     const std::uint32_t bucket = above < kBuckets ? above : kBuckets - 1;
     const std::uint32_t entry = free_ != kNone ? free_ : unused_++;

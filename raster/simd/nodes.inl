@@ -87,7 +87,7 @@ static void test_node(const Node* node, const NodeProblem* problem, NodeResult* 
     f_store(result->nearest + first, f_select(behind, f_set(3e38f), nearest));
     result->reached |= reached << first;
 
-    if (node->leaf != 0) {
+    if (problem->find_away != 0) {
       F axis[3], spread_by = f_set(0.0f), towards = f_set(0.0f), across = f_set(0.0f);
       for (int k = 0; k < 3; ++k) {
         axis[k] = f_load(node->axis[k] + first);
