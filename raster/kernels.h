@@ -110,10 +110,16 @@ struct WindowPlanes {
   int32_t tile_shift; ///< log2 of the tile size
 };
 
-/// Tiles x0..x1 by y0..y1 of a window, both ends included.
-struct TileRange {
+/// Pixels, or tiles, x0..x1 by y0..y1 of a window, both ends included.
+struct Range {
   int32_t x0, y0, x1, y1;
 };
+
+/// The tiles that pixels lie in.
+inline Range tiles_of(const Range& pixels, int32_t tile_shift) {
+  return {pixels.x0 >> tile_shift, pixels.y0 >> tile_shift, pixels.x1 >> tile_shift,
+          pixels.y1 >> tile_shift};
+}
 
 /// What is already drawn over some tiles: nothing that covers one, something, or all that is
 /// behind.
@@ -141,8 +147,8 @@ struct Kernels {
   /// row's end.
   void (*draw)(const PolygonBatch* batch, uint32_t polygons, const WindowPlanes* planes);
 
-  /// What the tiles hold, for something nowhere nearer than 1/z = nearest.
-  Occlusion (*occlusion)(const WindowPlanes* planes, const TileRange* tiles, float nearest);
+  /// What the pixels hold, for something nowhere nearer than 1/z = nearest.
+  Occlusion (*occlusion)(const WindowPlanes* planes, const Range* pixels, float nearest);
 
   /// @return bit p: polygon p of the batch, one of those whose bits are set, is behind what its
   /// tiles

@@ -113,50 +113,48 @@ void Rasterizer::draw(Face face, const PixelGrid& grid, ItemBuffer* buffer) {
 }
 
 /// Calls take(visit) for the children that the window may see.
-template <typename Take>
-void Rasterizer::open_node(const Node& node, std::int32_t tile_shift, Take take) {
+template <typename Take> void Rasterizer::open_node(const Node& node, Take take) {
   NodeResult result;
   kernels_->test_node(&node, &node_problem_, &result);
   for (std::uint32_t left = result.reached & ~result.away; left != 0; left &= left - 1) {
     const int c = std::countr_zero(left);
     if (result.x_begin[c] >= result.x_end[c] || result.y_begin[c] >= result.y_end[c])
       continue;
-    const TileRange tiles = {result.x_begin[c] >> tile_shift, result.y_begin[c] >> tile_shift,
-                             (result.x_end[c] - 1) >> tile_shift,
-                             (result.y_end[c] - 1) >> tile_shift};
-    take(Visit{node.child[c], (node.clusters >> c & 1) != 0, tiles, result.nearest[c]});
+    const Range pixels = {result.x_begin[c], result.y_begin[c], result.x_end[c] - 1,
+                          result.y_end[c] - 1};
+    take(Visit{node.child[c], (node.clusters >> c & 1) != 0, pixels, result.nearest[c]});
   }
 }
 
 void Rasterizer::draw_front_to_back(const WindowPlanes& planes) {
   queue_.begin(static_cast<float>(1 / farthest_));
   const auto push = [&](const Visit& visit) { queue_.push(visit); };
-  open_node(tree_->nodes()[0], planes.tile_shift, push);
+  open_node(tree_->nodes()[0], push);
   while (!queue_.empty()) {
     const Visit visit = queue_.pop();
     if (!queue_.empty())
       tree_->prefetch(queue_.front().index, queue_.front().is_cluster);
     if (visit.is_cluster || queue_.room() < kBatch)
       draw_visit(visit, planes);
-    else if (kernels_->occlusion(&planes, &visit.tiles, visit.nearest) != Occlusion::kHidden)
-      open_node(tree_->nodes()[visit.index], planes.tile_shift, push);
+    else if (kernels_->occlusion(&planes, &visit.pixels, visit.nearest) != Occlusion::kHidden)
+      open_node(tree_->nodes()[visit.index], push);
   }
 }
 
 /// Draws a cluster, or all of a node.
 void Rasterizer::draw_visit(const Visit& visit, const WindowPlanes& planes) {
-  const Occlusion occlusion = kernels_->occlusion(&planes, &visit.tiles, visit.nearest);
+  const Occlusion occlusion = kernels_->occlusion(&planes, &visit.pixels, visit.nearest);
   if (occlusion == Occlusion::kHidden)
     return;
   if (!visit.is_cluster) {
-    open_node(tree_->nodes()[visit.index], planes.tile_shift,
-              [&](const Visit& child) { draw_visit(child, planes); });
+    open_node(tree_->nodes()[visit.index], [&](const Visit& child) { draw_visit(child, planes); });
     return;
   }
   draw_cluster(visit.index, occlusion, planes);
-  const auto columns = static_cast<std::uint32_t>((std::uint64_t{2} << visit.tiles.x1) -
-                                                  (std::uint64_t{1} << visit.tiles.x0));
-  for (std::int32_t y = visit.tiles.y0; y <= visit.tiles.y1; ++y)
+  const Range tiles = tiles_of(visit.pixels, planes.tile_shift);
+  const auto columns =
+      static_cast<std::uint32_t>((std::uint64_t{2} << tiles.x1) - (std::uint64_t{1} << tiles.x0));
+  for (std::int32_t y = tiles.y0; y <= tiles.y1; ++y)
     planes.dirty[y] |= columns;
 }
 

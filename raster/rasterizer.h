@@ -32,7 +32,7 @@ private:
   void set_window(Face face, const PixelGrid& grid, const Window& window);
   void draw_front_to_back(const WindowPlanes& planes);
   void draw_visit(const Visit& visit, const WindowPlanes& planes);
-  template <typename Take> void open_node(const Node& node, std::int32_t tile_shift, Take take);
+  template <typename Take> void open_node(const Node& node, Take take);
   void draw_cluster(std::uint32_t index, Occlusion occlusion, const WindowPlanes& planes);
 
   const PolygonTree* tree_ = nullptr;

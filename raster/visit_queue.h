@@ -12,7 +12,7 @@ namespace hemicube::raster {
 struct Visit {
   std::uint32_t index;
   bool is_cluster;
-  TileRange tiles;
+  Range pixels;
   float nearest; ///< 1/z is nowhere larger; > 0
 };
 

@@ -138,32 +138,53 @@ static inline bool tile_hides(const WindowPlanes* planes, int32_t x, int32_t y, 
   return *farthest > nearest;
 }
 
-static Occlusion occlusion(const WindowPlanes* planes, const TileRange* tiles, float nearest) {
+static inline int32_t larger(int32_t a, int32_t b) {
+  return a > b ? a : b;
+}
+static inline int32_t smaller(int32_t a, int32_t b) {
+  return a < b ? a : b;
+}
+
+/// Whether nothing at 1/z = nearest would be seen in the pixels that lie in a tile. A tile that
+/// reaches beyond them says too little.
+static bool pixels_hide(const WindowPlanes* planes, const Range* pixels, int32_t x, int32_t y,
+                        float nearest) {
+  const int32_t shift = planes->tile_shift, last = (1 << shift) - 1;
+  const int32_t x0 = larger(pixels->x0, x << shift), x1 = smaller(pixels->x1, (x << shift) + last);
+  const int32_t y0 = larger(pixels->y0, y << shift), y1 = smaller(pixels->y1, (y << shift) + last);
+  if (x1 - x0 == last && y1 - y0 == last)
+    return false;
+  const float* depths = planes->depths + static_cast<int64_t>(y0) * planes->pitch;
+  for (int32_t row = y0; row <= y1; ++row, depths += planes->pitch)
+    for (int32_t k = x0; k <= x1; k += kFloats) {
+      const M seen =
+          m_and(m_first(x1 + 1 - k), m_not(f_greater(f_load(depths + k), f_set(nearest))));
+      if (m_bits(seen) != 0)
+        return false;
+    }
+  return true;
+}
+
+static Occlusion occlusion(const WindowPlanes* planes, const Range* pixels, float nearest) {
+  const Range tiles = tiles_of(*pixels, planes->tile_shift);
   const uint32_t columns =
-      static_cast<uint32_t>((uint64_t{2} << tiles->x1) - (uint64_t{1} << tiles->x0));
+      static_cast<uint32_t>((uint64_t{2} << tiles.x1) - (uint64_t{1} << tiles.x0));
   bool some_covered = false;
-  for (int32_t y = tiles->y0; y <= tiles->y1; ++y) {
+  for (int32_t y = tiles.y0; y <= tiles.y1; ++y) {
     const float* farthest = planes->farthest + y * kTilesPerRow;
     uint32_t covered = 0, hiding = 0;
-    for (int32_t x = tiles->x0 & -kFloats; x <= tiles->x1; x += kFloats) {
+    for (int32_t x = tiles.x0 & -kFloats; x <= tiles.x1; x += kFloats) {
       covered |= m_bits(f_greater(f_load(farthest + x), f_set(0.0f))) << x;
       hiding |= m_bits(f_greater(f_load(farthest + x), f_set(nearest))) << x;
     }
     some_covered = some_covered || (covered & columns) != 0;
     for (uint32_t left = columns & ~hiding; left != 0; left &= left - 1) {
       const int x = __builtin_ctz(left);
-      if (!tile_hides(planes, x, y, nearest))
+      if (!tile_hides(planes, x, y, nearest) && !pixels_hide(planes, pixels, x, y, nearest))
         return some_covered || farthest[x] != 0 ? Occlusion::kCovered : Occlusion::kOpen;
     }
   }
   return Occlusion::kHidden;
-}
-
-static inline int32_t larger(int32_t a, int32_t b) {
-  return a > b ? a : b;
-}
-static inline int32_t smaller(int32_t a, int32_t b) {
-  return a < b ? a : b;
 }
 
 /// Testing more tiles than this costs more than drawing.
@@ -173,7 +194,7 @@ static inline bool is_hidden(const PolygonBatch* batch, int p, const WindowPlane
   const int32_t shift = planes->tile_shift;
   const int32_t x_begin = batch->x_begin[p] - planes->x, x_last = batch->x_end[p] - planes->x - 1;
   const int32_t y_begin = batch->y_begin[p] - planes->y, y_last = batch->y_end[p] - planes->y - 1;
-  const TileRange tiles = {x_begin >> shift, y_begin >> shift, x_last >> shift, y_last >> shift};
+  const Range tiles = {x_begin >> shift, y_begin >> shift, x_last >> shift, y_last >> shift};
   if ((tiles.x1 - tiles.x0 + 1) * (tiles.y1 - tiles.y0 + 1) > kMaxTilesTested)
     return false;
   const double per_row = batch->depth_per_row[p];
