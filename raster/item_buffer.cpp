@@ -32,12 +32,10 @@ void ItemBuffer::begin(const Window& window) {
   }
   clear_ = false;
   window_ = window;
-  const std::int32_t shift = tile_shift(std::max(window.width, window.height));
-  const std::int32_t tile_rows = ((window.height - 1) >> shift) + 1;
-  std::fill_n(farthest_.data(), tile_rows * kTilesPerRow, 0.0f);
+  farthest_.fill(0.0f);
   dirty_.fill(0);
-  planes_ = {items_ + kLead, depths_ + kLead,  kRowPitch,     window.x, window.y,
-             window.height,  farthest_.data(), dirty_.data(), shift};
+  planes_ = {items_ + kLead, depths_ + kLead, kRowPitch,        window.x,
+             window.y,       window.height,   farthest_.data(), dirty_.data()};
 }
 
 std::uint64_t hash_items(const ItemBuffer& buffer, std::uint64_t seed) {

@@ -3,10 +3,13 @@
 #include "raster/face_view.h"
 #include "raster/kernels.h"
 #include "raster/memory.h"
-#include "raster/tile.h"
 #include "raster/types.h"
 
 namespace hemicube::raster {
+
+/// Elements from one row of a window to the next. The padding lets kernels load and store whole
+/// vectors past a row's end, and keeps rows from falling on the same cache sets.
+inline constexpr std::int32_t kRowPitch = kMaxWindowSize + 16;
 
 /// The z-buffer of one window: per pixel the nearest item and its depth 1/z, in separate planes
 /// with padded rows, and per tile the depth of its farthest pixel. About 560 KiB.

@@ -75,9 +75,13 @@ struct WindowProblem {
   int32_t draw_backs;
 };
 
-/// Pixels and tiles of a window, at most, along each side.
+/// Pixels of a window, at most, along each side.
 constexpr int32_t kMaxWindowSize = 256;
-constexpr int32_t kTilesPerRow = 32;
+
+/// Hierarchical z: of each tile, a square of pixels counted from the window's corner, the depth of
+/// the farthest pixel is kept.
+constexpr int32_t kTileShift = 4, kTileSize = 1 << kTileShift;
+constexpr int32_t kTilesPerRow = kMaxWindowSize / kTileSize;
 
 /// Polygons as one window of a face sees them: all that drawing needs. Every floating-point
 /// decision about coverage and depth is made here, once, from the same numbers for both sides of an
@@ -105,9 +109,8 @@ struct WindowPlanes {
   int32_t pitch;
   int32_t x, y; ///< of the grid: the window's corner
   int32_t height;
-  float* farthest;    ///< [tile row][kTilesPerRow]
-  uint32_t* dirty;    ///< [tile row] bit x: farthest is out of date
-  int32_t tile_shift; ///< log2 of the tile size
+  float* farthest; ///< [tile row][kTilesPerRow]
+  uint32_t* dirty; ///< [tile row] bit x: farthest is out of date
 };
 
 /// Pixels, or tiles, x0..x1 by y0..y1 of a window, both ends included.
@@ -116,9 +119,9 @@ struct Range {
 };
 
 /// The tiles that pixels lie in.
-inline Range tiles_of(const Range& pixels, int32_t tile_shift) {
-  return {pixels.x0 >> tile_shift, pixels.y0 >> tile_shift, pixels.x1 >> tile_shift,
-          pixels.y1 >> tile_shift};
+inline Range tiles_of(const Range& pixels) {
+  return {pixels.x0 >> kTileShift, pixels.y0 >> kTileShift, pixels.x1 >> kTileShift,
+          pixels.y1 >> kTileShift};
 }
 
 /// What is already drawn over some tiles: nothing that covers one, something, or all that is

@@ -14,7 +14,7 @@ using Range = std::span<std::uint32_t>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A group that faces in several directions counts as this many of one.
-constexpr double kMixed = 1.5;
+constexpr double kMixed = 1.2;
 
 /// A group that would do as a cluster is divided where that leaves less than this of its cost.
 constexpr double kWorthDividing = 0.5;

@@ -151,7 +151,7 @@ void Rasterizer::draw_visit(const Visit& visit, const WindowPlanes& planes) {
     return;
   }
   draw_cluster(visit.index, occlusion, planes);
-  const Range tiles = tiles_of(visit.pixels, planes.tile_shift);
+  const Range tiles = tiles_of(visit.pixels);
   const auto columns =
       static_cast<std::uint32_t>((std::uint64_t{2} << tiles.x1) - (std::uint64_t{1} << tiles.x0));
   for (std::int32_t y = tiles.y0; y <= tiles.y1; ++y)

@@ -104,7 +104,7 @@ static void test_node(const Node* node, const NodeProblem* problem, NodeResult* 
 
 /// The smallest depth of a tile; 0 if a pixel is empty.
 static float farthest_of_tile(const WindowPlanes* planes, int32_t x, int32_t y) {
-  const int32_t size = 1 << planes->tile_shift;
+  constexpr int32_t size = kTileSize;
   const int32_t rows = planes->height - y * size < size ? planes->height - y * size : size;
   const float* depths = planes->depths + static_cast<int64_t>(y) * size * planes->pitch + x * size;
   // Mostly a tile that is not covered yet shows it in a corner.
@@ -112,10 +112,9 @@ static float farthest_of_tile(const WindowPlanes* planes, int32_t x, int32_t y) 
   if (depths[0] == 0 || depths[size - 1] == 0 || last[0] == 0 || last[size - 1] == 0)
     return 0;
   F least = f_set(3e38f);
-  const M inside = m_first(size);
   for (int32_t row = 0; row < rows; ++row) {
     for (int32_t k = 0; k < size; k += kFloats)
-      least = f_min(f_select(inside, f_load(depths + k), least), least);
+      least = f_min(f_load(depths + k), least);
     depths += planes->pitch;
   }
   float lanes[kFloats];
@@ -149,7 +148,7 @@ static inline int32_t smaller(int32_t a, int32_t b) {
 /// reaches beyond them says too little.
 static bool pixels_hide(const WindowPlanes* planes, const Range* pixels, int32_t x, int32_t y,
                         float nearest) {
-  const int32_t shift = planes->tile_shift, last = (1 << shift) - 1;
+  constexpr int32_t shift = kTileShift, last = kTileSize - 1;
   const int32_t x0 = larger(pixels->x0, x << shift), x1 = smaller(pixels->x1, (x << shift) + last);
   const int32_t y0 = larger(pixels->y0, y << shift), y1 = smaller(pixels->y1, (y << shift) + last);
   if (x1 - x0 == last && y1 - y0 == last)
@@ -166,7 +165,7 @@ static bool pixels_hide(const WindowPlanes* planes, const Range* pixels, int32_t
 }
 
 static Occlusion occlusion(const WindowPlanes* planes, const Range* pixels, float nearest) {
-  const Range tiles = tiles_of(*pixels, planes->tile_shift);
+  const Range tiles = tiles_of(*pixels);
   const uint32_t columns =
       static_cast<uint32_t>((uint64_t{2} << tiles.x1) - (uint64_t{1} << tiles.x0));
   bool some_covered = false;
@@ -191,7 +190,7 @@ static Occlusion occlusion(const WindowPlanes* planes, const Range* pixels, floa
 constexpr int32_t kMaxTilesTested = 16;
 
 static inline bool is_hidden(const PolygonBatch* batch, int p, const WindowPlanes* planes) {
-  const int32_t shift = planes->tile_shift;
+  constexpr int32_t shift = kTileShift;
   const int32_t x_begin = batch->x_begin[p] - planes->x, x_last = batch->x_end[p] - planes->x - 1;
   const int32_t y_begin = batch->y_begin[p] - planes->y, y_last = batch->y_end[p] - planes->y - 1;
   const Range tiles = {x_begin >> shift, y_begin >> shift, x_last >> shift, y_last >> shift};
