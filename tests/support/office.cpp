@@ -53,16 +53,16 @@ private:
 void OfficeBuilder::wall(const Vec3& corner, const Vec3& along, double door_begin, bool door) {
   const Vec3 up{0, 0, kRoomZ};
   if (!door) {
-    rectangle(plaster_, corner, along, up);
+    rectangle(plaster_, corner, up, along);
     return;
   }
   const double length = glm::length(along);
   const Vec3 begin = along * (door_begin / length);
   const Vec3 end = along * ((door_begin + kDoorWidth) / length);
   const Vec3 lintel{0, 0, kDoorHeight};
-  rectangle(plaster_, corner, begin, up);
-  rectangle(plaster_, corner + end, along - end, up);
-  rectangle(plaster_, corner + begin + lintel, end - begin, up - lintel);
+  rectangle(plaster_, corner, up, begin);
+  rectangle(plaster_, corner + end, up, along - end);
+  rectangle(plaster_, corner + begin + lintel, up - lintel, end - begin);
 }
 
 void OfficeBuilder::doorway(const Vec3& corner, const Vec3& along, const Vec3& through,
