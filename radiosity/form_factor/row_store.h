@@ -41,8 +41,8 @@ public:
   /// @param end      of the file's blocks, in bytes
   /// @param is_sound bool(bytes), whether bytes can be a row
   /// @param rest     receives the offset of what follows the last sound block
-  template <typename IsSound>
-  Status adopt(std::uint64_t end, IsSound is_sound, std::uint64_t* rest) noexcept {
+  template <typename IsRow>
+  Status adopt(std::uint64_t end, IsRow is_row, std::uint64_t* rest) noexcept {
     *rest = storage_.begin;
     for (std::size_t block = 0; block < blocks_.size(); ++block) {
       Buffer<std::byte> bytes;
@@ -50,7 +50,7 @@ public:
       if (bytes.empty())
         return {};
       for (std::uint64_t i = 0; i < rows_in(block); ++i)
-        if (!is_sound(row_of(bytes.data(), i)))
+        if (!is_row(row_of(bytes.data(), i)))
           return {};
       *rest += bytes.size();
       HC_TRY(take_block(block, *rest, &bytes));
