@@ -56,12 +56,18 @@ Status FormFactorMatrix::init(std::uint64_t row_count, std::uint32_t column_coun
 }
 
 Status FormFactorMatrix::adopt(std::uint64_t end, std::uint64_t* rest) noexcept {
+  std::uint64_t rows = 0, nonzeros = 0;
   return rows_.adopt(
       end,
       [&](std::span<const std::byte> bytes) {
         if (!is_sound(bytes))
           return false;
-        nonzeros_ += view(bytes).columns.size();
+        nonzeros += view(bytes).columns.size();
+        // Only a whole block is taken.
+        if (++rows % kBlockRows == 0 || rows == row_count()) {
+          nonzeros_ += nonzeros;
+          nonzeros = 0;
+        }
         return true;
       },
       rest);
