@@ -34,7 +34,7 @@ public:
   /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
   /// the first row, after the last one, and in between.
-  /// @param first     the index to begin with, a multiple of FormFactorMatrix::kBlockRows
+  /// @param first     the index to begin with, a multiple of FormFactorMatrix::kBlockRows, or count
   /// @param place_of  bool(index, RowPlace*); false if no row is wanted there: take then gets an
   ///                  empty row and null facts
   template <typename PlaceOf, typename Take>
@@ -80,7 +80,7 @@ private:
   Status for_each_row(std::uint64_t first, std::uint64_t count, MakeRow make_row, Take take,
                       bool counts) {
     constexpr std::uint64_t kRows = FormFactorMatrix::kBlockRows;
-    const std::uint64_t first_block = first / kRows;
+    const std::uint64_t first_block = (first + kRows - 1) / kRows; // first may be count
     const auto build_block = [&](std::size_t index, std::size_t worker) {
       const std::uint64_t block = first_block + index;
       const FloatEnvironment environment;
