@@ -26,6 +26,7 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
   // So many rows tell what all of them will take.
   const std::uint64_t telling = patch_count / 32 + kRows;
   HC_TRY(pairs_.init(patch_count, pair_storage_));
+  const std::uint64_t total = total_, kept = done_;
   std::uint64_t first = 0;
   if (pair_storage_.file != nullptr) {
     std::uint64_t rest = 0;
@@ -35,8 +36,10 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
       first += kRows;
     first = first < patch_count ? first : patch_count;
     pair_rows_kept_ = first;
-    done_ += first;
   }
+  // Each patch finds its pairs, whether its row is wanted, or kept, or not.
+  total_ = patch_count;
+  done_ = first;
   std::atomic<bool> is_too_large{false};
   std::atomic<std::uint64_t> found{first};
   const auto find = [&](std::uint64_t index, LadderRow& builder, RowView*, RowFacts* facts, bool*) {
@@ -60,7 +63,8 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
     return pairs_.transpose();
   }
   shares_pairs_ = false;
-  done_ = 0;
+  total_ = total;
+  done_ = kept;
   pair_rows_kept_ = 0;
   if (pair_storage_.file != nullptr)
     HC_TRY(pair_storage_.file->truncate(pair_storage_.begin));

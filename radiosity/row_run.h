@@ -29,7 +29,10 @@ public:
   std::uint64_t pair_rows_kept() const { return pair_rows_kept_; }
 
   /// Counts rows as done that are not built.
-  void count_kept(std::uint64_t rows) { done_ += rows; }
+  void count_kept(std::uint64_t rows) {
+    if (pairs_.empty()) // else all rows count as done once their pairs are found
+      done_ += rows;
+  }
 
   /// Calls take(index, row, facts) for the indices 0 .. count-1; those of one block of
   /// FormFactorMatrix::kBlockRows come in ascending order from one worker. Reports progress before
