@@ -26,6 +26,9 @@ struct RunFiles {
   std::uint64_t rows_resumed = 0; ///< out: rows that need not be computed, as they were there
 };
 
+enum class SolverKind { kGaussSeidel, kJacobi, kProgressive };
+const char* solver_name(SolverKind solver) noexcept;
+
 /// What the caller chooses. The defaults are those of the command line.
 struct Options {
   Rung rung = Rung::kHemicube;
@@ -39,13 +42,23 @@ struct Options {
   bool estimate_error = false; ///< certify the error by a sample of finer rows
   double tolerance = 1e-6;     ///< on the estimated relative error of B
   std::uint64_t max_sweeps = 1000000;
-  bool black_irradiance = true; ///< gather the irradiance of patches that reflect nothing
+  SolverKind solver = SolverKind::kGaussSeidel;
+  /// Progressive refinement: with all rows kept, as with `balance`; else each is made when its
+  /// patch shoots.
+  bool keep_matrix = false;
+  double stop_unshot = 0; ///< progressive: stop at this share of unshot light; 0: at the tolerance
+                          ///< with all rows, else at 0.001
+  std::uint64_t max_shots = ~std::uint64_t{0};
+  std::uint64_t snapshot_every = 0; ///< shots between calls of Progress::snapshot; 0 = none
+  bool black_irradiance = true;     ///< gather the irradiance of patches that reflect nothing
   bool balance =
       false; ///< make the form factors reciprocal (form_factor/balance.h); takes all rows
   bool hash_items = false;                  ///< hash every item buffer (slow)
   const raster::Kernels* kernels = nullptr; ///< instruction set; null = the best this machine has
   RunFiles* files = nullptr;                ///< null: memory alone
 };
+
+struct Solution;
 
 /// Called from time to time, from any worker, never twice at once.
 class Progress {
@@ -69,6 +82,21 @@ public:
   /// Called before the first sweep, with 0, and after every few.
   /// @param error  the estimated relative error after `sweeps` sweeps
   virtual bool sweeps(std::uint64_t sweeps, double error) noexcept = 0;
+  /// Progressive refinement: called before the first shot, with 0, and after each.
+  /// @param unshot  unshot power over emitted power
+  virtual bool shots(std::uint64_t shots, double unshot) noexcept {
+    static_cast<void>(shots);
+    static_cast<void>(unshot);
+    return true;
+  }
+  /// Progressive refinement: the state after every Options::snapshot_every shots, and before the
+  /// first. Of the solution reflectance, exitance, radiosity and ambient are there.
+  /// @return what is not ok ends the run
+  virtual Status snapshot(std::uint64_t shots, const Solution& solution) noexcept {
+    static_cast<void>(shots);
+    static_cast<void>(solution);
+    return {};
+  }
 
 protected:
   ~Progress() = default;
@@ -81,7 +109,9 @@ struct Solution {
   Buffer<double> exitance;    ///< W/m^2
   Buffer<double> irradiance;  ///< H, W/m^2; NaN for black patches with black_irradiance off
   Buffer<double> radiosity;   ///< B, W/m^2
-  Buffer<double> row_sum;     ///< [patch] sum of the row of form factors
+  Buffer<double> ambient;     ///< [band] of progressive refinement: a guess of the irradiance that
+                              ///< unshot light will make, for display; not in `radiosity`. Or empty
+  Buffer<double> row_sum;     ///< [patch] sum of the row of form factors; NaN: none was made
   Buffer<double> space;       ///< [patch] fraction of the hemisphere that sees space
   Buffer<double> back_side;   ///< [patch] fraction that sees back sides
 };

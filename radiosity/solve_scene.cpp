@@ -5,7 +5,11 @@
 #include "radiosity/radiosity.h"
 #include "radiosity/row_run.h"
 #include "radiosity/row_statistics.h"
+#include "radiosity/shoot_scene.h"
 #include "radiosity/solve/gauss_seidel.h"
+#include "radiosity/solve/jacobi.h"
+#include "radiosity/solve/progressive.h"
+#include "radiosity/solver_watch.h"
 #include "raster/fp_environment.h"
 #include "raster/hash.h"
 
@@ -17,30 +21,25 @@ namespace {
 
 constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
-/// Passes sweeps on to the caller's Progress.
-class SweepsToProgress final : public SolverProgress {
-public:
-  explicit SweepsToProgress(Progress* progress) : progress_(progress) {}
-  bool swept(std::uint64_t sweeps, double error) noexcept override {
-    return progress_ == nullptr || progress_->sweeps(sweeps, error);
-  }
-
-private:
-  Progress* progress_;
-};
-
 /// One solve from beginning to end; the steps in the order they are called.
 class SceneSolver {
 public:
   SceneSolver(const Scene& scene, const PatchSet& patches, const Options& options,
               Executor& executor, Progress* progress)
       : scene_(scene), patches_(patches), options_(options), executor_(executor),
-        progress_(progress), dial_(&geometry_, &problem_, options, executor) {}
+        progress_(progress), dial_(&geometry_, &problem_, options, executor),
+        watch_(scene, patches, light_, options, progress) {}
 
   Status prepare();
   Status choose_setting();
   Status build_matrix(Certificate* certificate);
   Status solve(Certificate* certificate);
+  /// Instead of the two: light without a matrix.
+  bool shoots() const {
+    return options_.solver == SolverKind::kProgressive && !options_.balance &&
+           !options_.keep_matrix;
+  }
+  Status shoot(Certificate* certificate);
   /// @param is_enough  false if a finer setting was chosen: matrix and light are to be made again
   Status estimate_error(Certificate* certificate, bool* is_enough);
   Status gather_black_irradiance();
@@ -50,6 +49,7 @@ private:
   Status read_given_rows();
   void gather_black(std::uint64_t i, const RowView& row);
   Status gather_black_rows_of(const FormFactorMatrix& rows, std::size_t blocks);
+  void record(const Status& status, const Convergence& convergence, Certificate* certificate);
   void balance_energy(const Solution& solution, Certificate* certificate) const;
 
   const Scene& scene_;
@@ -69,6 +69,8 @@ private:
   RowRun run_;
   RowStatistics statistics_;
   FormFactorMatrix matrix_;
+  SolverWatch watch_;
+  Buffer<EnergyBalance> shot_energy_;     ///< [band of the problem] of shoot()
   Buffer<double> radiosity_, irradiance_; ///< [patch][band of the problem]
 };
 
@@ -159,17 +161,61 @@ Status SceneSolver::solve(Certificate* certificate) {
     is_black[i] = !options_.balance && problem_.is_black(i); // without a row, or as if without
   HC_TRY(measure_reciprocity(matrix_, patches_.area.span(), executor_, &certificate->reciprocity,
                              is_black.span()));
-  SweepsToProgress progress(progress_);
+  const SolverOptions options = {options_.tolerance, options_.max_sweeps, options_.kernels,
+                                 options_.stop_unshot, options_.max_shots};
   Convergence convergence;
-  const SolverOptions options = {options_.tolerance, options_.max_sweeps, options_.kernels};
-  const Status status = gauss_seidel(matrix_, problem_, options, executor_, &progress, &radiosity_,
-                                     &irradiance_, &convergence);
+  const auto run = options_.solver == SolverKind::kGaussSeidel ? gauss_seidel
+                   : options_.solver == SolverKind::kJacobi    ? jacobi
+                                                               : progressive;
+  const Status status = watch_.outcome(
+      run(matrix_, problem_, options, executor_, &watch_, &radiosity_, &irradiance_, &convergence));
+  certificate->has_residual = true;
+  record(status, convergence, certificate);
+  return status;
+}
+
+void SceneSolver::record(const Status& status, const Convergence& convergence,
+                         Certificate* certificate) {
   certificate->solved = status.ok() || status.code() == StatusCode::kNotConverged;
+  certificate->solver = solver_name(options_.solver);
   certificate->residual = convergence.residual;
   certificate->estimated_error = convergence.estimated_error;
   certificate->sweeps = convergence.sweeps;
   certificate->converged = convergence.converged;
   certificate->rounding_floor = convergence.rounding_floor;
+  certificate->has_shots = options_.solver == SolverKind::kProgressive;
+  certificate->shots = convergence.shots;
+  certificate->unshot = convergence.unshot;
+  certificate->unshot_bound = convergence.unshot_bound;
+}
+
+Status SceneSolver::shoot(Certificate* certificate) {
+  HC_TRY(statistics_.init(patches_.patch_count(), options_.hash_items));
+  SceneShooter shooter(problem_);
+  const Status status =
+      watch_.outcome(shooter.run(&geometry_, setting_, options_, executor_, &watch_, &statistics_));
+  record(status, shooter.convergence(), certificate);
+  if (!certificate->solved)
+    return status;
+  radiosity_.swap(shooter.light().radiosity());
+  irradiance_.swap(shooter.light().irradiance());
+  HC_TRY(shot_energy_.resize(problem_.band_count));
+  for (std::uint32_t b = 0; b < problem_.band_count; ++b)
+    shot_energy_[b] = shooter.energy(b);
+  for (std::size_t at = 0; at < irradiance_.size() && !options_.black_irradiance; ++at)
+    if (problem_.is_black(at / problem_.band_count))
+      irradiance_[at] = kNotComputed;
+  if (options_.estimate_error && setting_.rung != Rung::kExact) {
+    RowSample sample;
+    FormFactorMatrix rows;
+    HC_TRY(sample.choose(patches_.patch_count(), kErrorSampleRows));
+    HC_TRY(compute_sampled_rows(&geometry_, setting_, options_, executor_, sample.patches(), &rows,
+                                nullptr));
+    HC_TRY(compute_exact_rows(&geometry_, setting_, options_, executor_, &sample));
+    certificate->form_factor_error =
+        sample.form_factor_error([&](std::size_t k) { return rows.row(k); });
+    certificate->has_form_factor_error = true;
+  }
   return status;
 }
 
@@ -264,9 +310,8 @@ Status SceneSolver::gather_black_rows_of(const FormFactorMatrix& rows, std::size
 Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
   const std::uint32_t count = patches_.patch_count(), bands = scene_.band_count();
   Solution& s = *solution;
-  s.band_count = bands;
-  for (Buffer<double>* values : {&s.reflectance, &s.exitance, &s.irradiance, &s.radiosity})
-    HC_TRY(values->resize(std::size_t{count} * bands));
+  HC_TRY(fill_light(light_, bands, radiosity_.span(), watch_.ambient(), solution));
+  HC_TRY(s.irradiance.resize(std::size_t{count} * bands));
   for (Buffer<double>* values : {&s.row_sum, &s.space, &s.back_side})
     HC_TRY(values->resize(count));
   Hash radiosity_hash;
@@ -274,10 +319,7 @@ Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
     for (std::uint32_t b = 0; b < bands; ++b) {
       const std::size_t from = std::size_t{i} * light_.band_count + light_.solved_band[b];
       const std::size_t to = std::size_t{i} * bands + b;
-      s.reflectance[to] = light_.reflectance[from];
-      s.exitance[to] = light_.exitance[from];
       s.irradiance[to] = irradiance_[from];
-      s.radiosity[to] = radiosity_[from];
       radiosity_hash.add(radiosity_[from]);
     }
     s.row_sum[i] = statistics_.sum(i);
@@ -293,7 +335,10 @@ Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
     if (irradiance != irradiance)
       return {}; // without the irradiance of black patches there is no balance
   HC_TRY(certificate->energy.resize(bands));
-  balance_energy(s, certificate);
+  if (shot_energy_.empty())
+    balance_energy(s, certificate);
+  for (std::uint32_t b = 0; b < bands && !shot_energy_.empty(); ++b)
+    certificate->energy[b] = shot_energy_[light_.solved_band[b]];
   return {};
 }
 
@@ -317,6 +362,12 @@ void SceneSolver::balance_energy(const Solution& s, Certificate* certificate) co
 
 } // namespace
 
+const char* solver_name(SolverKind solver) noexcept {
+  return solver == SolverKind::kGaussSeidel ? "gauss-seidel"
+         : solver == SolverKind::kJacobi    ? "jacobi"
+                                            : "progressive";
+}
+
 Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& options,
                    Executor& executor, Progress* progress, Solution* solution,
                    Certificate* certificate) {
@@ -326,6 +377,13 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
   HC_TRY(solver.prepare());
   HC_TRY(solver.choose_setting());
   Status solved;
+  if (solver.shoots()) {
+    solved = solver.shoot(certificate);
+    if (!certificate->solved)
+      return solved;
+    HC_TRY(solver.fill(solution, certificate));
+    return solved;
+  }
   for (bool is_enough = false; !is_enough;) {
     HC_TRY(solver.build_matrix(certificate));
     solved = solver.solve(certificate);

@@ -3,20 +3,56 @@
 #include "radiosity/cli/interrupt.h"
 #include "radiosity/cli/requirements.h"
 #include "radiosity/cli/session.h"
+#include "radiosity/output/image_writer.h"
 #include "radiosity/output/solution_files.h"
+#include "radiosity/output/vertex_radiosity.h"
 
 #include <cmath>
 
 namespace hemicube::radiosity::cli {
 namespace {
 
+std::string bound_text(double bound) {
+  return std::isfinite(bound) ? rounded(bound) : "unknown";
+}
+
+std::string shots_text(const Certificate& c) {
+  return concat(", ", counted(c.shots, "shot", "shots"), ", unshot ", rounded(c.unshot),
+                ", which can add ", bound_text(c.unshot_bound));
+}
+
+std::string residual_text(const Certificate& c) {
+  return concat(", ", counted(c.sweeps, "sweep", "sweeps"), ", residual ", rounded(c.residual),
+                ", estimated error ", bound_text(c.estimated_error),
+                c.rounding_floor ? " (rounding allows no less)" : "");
+}
+
+/// Draws the state after some shots into DIR/snapshots.
+Status write_snapshot(Session* session, const Camera& camera, std::uint64_t shots,
+                      const Solution& solution) {
+  const LoadedScene& loaded = session->loaded;
+  Buffer<double> displayed;
+  Buffer<float> corner_radiosity;
+  Picture picture;
+  FileSet files;
+  HC_TRY(load_image_plugin());
+  HC_TRY(displayed_radiosity(solution, &displayed));
+  HC_TRY(vertex_radiosities(loaded.patches, displayed, solution.band_count, &corner_radiosity));
+  HC_TRY(draw_picture(loaded.scene, loaded.patches, solution, corner_radiosity, camera,
+                      *session->line.options.kernels, &picture));
+  const Result<double> exposure = choose_exposure(picture, session->line.exposure);
+  HC_TRY(exposure.status());
+  std::string name = std::to_string(shots);
+  name.insert(0, name.size() < 6 ? 6 - name.size() : 0, '0');
+  HC_TRY(files.begin(session->line.output + "/snapshots"));
+  HC_TRY(write_picture(&files, name + ".png", picture, exposure.value()));
+  return files.commit();
+}
+
 void print_summary(const Session& session, const Certificate& certificate) {
   const Certificate& c = certificate;
-  print(concat(counted(c.patches, "patch", "patches"), ", ", session.rung_text(c), ", ",
-               counted(c.sweeps, "sweep", "sweeps"), ", residual ", rounded(c.residual),
-               ", estimated error ",
-               std::isfinite(c.estimated_error) ? rounded(c.estimated_error) : "unknown",
-               c.rounding_floor ? " (rounding allows no less)" : "",
+  print(concat(counted(c.patches, "patch", "patches"), ", ", session.rung_text(c),
+               c.has_shots ? shots_text(c) : "", c.has_residual ? residual_text(c) : "",
                c.has_radiosity_error
                    ? concat(" of the solver, ", rounded(c.radiosity_error), " of the form factors")
                    : "",
@@ -58,7 +94,10 @@ Status run_solve(const CommandLine& line) {
   HC_TRY(session.begin_files(line.output.empty() ? "" : line.output + "/form_factors.hcf"));
   Solution solution;
   Certificate certificate;
-  const Status solved = session.solve(&solution, &certificate);
+  const Status solved =
+      session.solve(&solution, &certificate, [&](std::uint64_t shots, const Solution& state) {
+        return write_snapshot(&session, camera, shots, state);
+      });
   if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
     return solved;
   std::string report = session.report_text(certificate);

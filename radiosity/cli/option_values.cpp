@@ -44,6 +44,13 @@ std::string available_isas() {
 
 } // namespace
 
+std::uint64_t parse_count(std::string_view text, std::uint64_t min) {
+  std::uint64_t value = 0;
+  if (!read_number(text, &value) || value < min)
+    throw BadValue(concat("must be a whole number, ", min, " or more"));
+  return value;
+}
+
 std::uint32_t parse_whole_number(std::string_view text, std::uint32_t min, std::uint32_t max) {
   std::uint32_t value = 0;
   if (!read_number(text, &value) || value < min || value > max)
@@ -140,6 +147,14 @@ Rung parse_rung(std::string_view name) {
     if (name == rung_name(rung))
       return rung;
   throw BadValue("is not one of hemicube, analytic, area, adaptive, exact");
+}
+
+SolverKind parse_solver(std::string_view name) {
+  for (const SolverKind solver :
+       {SolverKind::kGaussSeidel, SolverKind::kJacobi, SolverKind::kProgressive})
+    if (name == solver_name(solver))
+      return solver;
+  throw BadValue("is not one of gauss-seidel, jacobi, progressive");
 }
 
 const raster::Kernels* parse_isa(std::string_view name) {

@@ -14,6 +14,7 @@ struct BadValue : std::runtime_error {
 
 // Text to values, by std::from_chars: whole text, no locale, no octal. All throw BadValue.
 
+std::uint64_t parse_count(std::string_view text, std::uint64_t min);
 std::uint32_t parse_whole_number(std::string_view text, std::uint32_t min, std::uint32_t max);
 
 /// A finite number with min < number < max.
@@ -36,6 +37,9 @@ RowSelection parse_rows(std::string_view text);
 
 /// "hemicube", "analytic", ...
 Rung parse_rung(std::string_view name);
+
+/// "gauss-seidel", "jacobi", "progressive".
+SolverKind parse_solver(std::string_view name);
 
 /// The kernels of an instruction set by name, if this machine has it.
 const raster::Kernels* parse_isa(std::string_view name);

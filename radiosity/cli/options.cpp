@@ -88,6 +88,11 @@ public:
     }
     if (line_.options.kernels == nullptr)
       line_.options.kernels = &raster::best_kernels();
+    for (const CLI::Option* option : shot_options_)
+      if (option->count() != 0 && line_.options.solver != SolverKind::kProgressive)
+        throw BadValue(concat(option->get_name(), ": needs --solver progressive"));
+    if (line_.options.snapshot_every != 0 && line_.output.empty())
+      throw BadValue("--snapshot-every: needs -o DIR, where the pictures go");
     // Some rows, to look at or to time: nothing is chosen by other rows unless asked for.
     const bool shows_rows = rows_are_given_ || line_.command == Command::kLook;
     if (shows_rows && !error_is_given_)
@@ -135,6 +140,11 @@ private:
     common.push_back(add_value(
         &app_, "--tolerance", "X", "relative error of the radiosity the solver may leave [1e-6]",
         [&](const std::string& text) { options.tolerance = parse_real_number(text, 0, 1); }));
+    common.push_back(add_value(
+        &app_, "--solver", "NAME",
+        "gauss-seidel, jacobi, or progressive: shoots light, without a matrix unless balanced "
+        "[gauss-seidel]",
+        [&](const std::string& text) { options.solver = parse_solver(text); }));
     common.push_back(
         app_.add_flag("--balance", options.balance,
                       "make the form factors reciprocal (solve, render, formfactors)"));
@@ -173,6 +183,7 @@ private:
         "--no-black-irradiance", [this] { line_.options.black_irradiance = false; },
         "do not gather the irradiance of patches that reflect nothing");
     add_form_factors(sub);
+    add_shots(sub);
     add_exposure(sub);
     add_require(sub, true);
   }
@@ -181,6 +192,21 @@ private:
     return add_path(sub, "--form-factors", "FILE.hcf",
                     "use the form factors of this file, or compute them and keep them there",
                     &line_.form_factors);
+  }
+
+  void add_shots(CLI::App* sub) {
+    Options& options = line_.options;
+    shot_options_ = {
+        add_value(
+            sub, "--stop-unshot", "X",
+            "progressive: stop when so much of what is emitted is unshot [0.001; balanced: at "
+            "the tolerance]",
+            [&](const std::string& text) { options.stop_unshot = parse_real_number(text, 0, 1); }),
+        add_value(sub, "--max-shots", "N", "progressive: stop after so many shots [no limit]",
+                  [&](const std::string& text) { options.max_shots = parse_count(text, 0); }),
+        add_value(sub, "--snapshot-every", "N",
+                  "progressive: a picture DIR/snapshots/SHOTS.png every N shots [none]",
+                  [&](const std::string& text) { options.snapshot_every = parse_count(text, 1); })};
   }
 
   void add_require(CLI::App* sub, bool solves) {
@@ -305,6 +331,7 @@ private:
   }
 
   CommandLine& line_;
+  std::vector<const CLI::Option*> shot_options_;
   bool error_is_given_ = false, rows_are_given_ = false;
   std::shared_ptr<CLI::Formatter> formatter_ = std::make_shared<CLI::Formatter>();
   CLI::App app_{"Deterministic diffuse radiosity and form factors by hemicubes, on the CPU.",

@@ -3,6 +3,7 @@
 #include "radiosity/cli/interrupt.h"
 
 #include <cstdio>
+#include <exception>
 #include <unistd.h>
 
 namespace hemicube::radiosity::cli {
@@ -78,6 +79,29 @@ bool ProgressReport::sweeps(std::uint64_t sweeps, double error) noexcept {
     show(text);
   }
   return !interrupted();
+}
+
+bool ProgressReport::shots(std::uint64_t shots, double unshot) noexcept {
+  part_ = kSolve;
+  count_time();
+  if (!interrupted() && is_time_to_show()) {
+    char text[160];
+    std::snprintf(text, sizeof text, "shot %llu, %.3g %% of the light unshot",
+                  static_cast<unsigned long long>(shots), 100 * unshot);
+    show(text);
+  }
+  return !interrupted();
+}
+
+Status ProgressReport::snapshot(std::uint64_t shots, const Solution& solution) noexcept {
+  if (!take_snapshot_)
+    return {};
+  try {
+    return take_snapshot_(shots, solution);
+  } catch (const std::exception& exception) { // in practice: no memory for a text
+    return Status::error(StatusCode::kOutOfMemory,
+                         "a snapshot cannot be written: ", exception.what());
+  }
 }
 
 void ProgressReport::finish() noexcept {

@@ -3,6 +3,7 @@
 #include "radiosity/radiosity.h"
 
 #include <chrono>
+#include <functional>
 
 namespace hemicube::radiosity::cli {
 
@@ -22,6 +23,12 @@ public:
   bool rows(std::uint64_t done, std::uint64_t total) noexcept override;
   bool balancing(std::uint64_t iterations, double closure_residual) noexcept override;
   bool sweeps(std::uint64_t sweeps, double error) noexcept override;
+  bool shots(std::uint64_t shots, double unshot) noexcept override;
+  Status snapshot(std::uint64_t shots, const Solution& solution) noexcept override;
+
+  /// What to do with snapshots. May throw.
+  using TakeSnapshot = std::function<Status(std::uint64_t shots, const Solution& solution)>;
+  void set_snapshots(TakeSnapshot take) { take_snapshot_ = std::move(take); }
 
   /// Removes the bar. Call it before anything else is printed.
   void finish() noexcept;
@@ -43,6 +50,7 @@ private:
   bool bar_is_shown_ = false;
   Part part_ = kBuild; ///< what the time since the last call is spent on
   Seconds time_[4] = {};
+  TakeSnapshot take_snapshot_;
 };
 
 } // namespace hemicube::radiosity::cli

@@ -71,8 +71,10 @@ template <typename Work> Status Session::compute(Work work) {
   return status;
 }
 
-Status Session::solve(Solution* solution, Certificate* certificate) {
-  const Status status = compute([&](Progress* progress) {
+Status Session::solve(Solution* solution, Certificate* certificate,
+                      const ProgressReport::TakeSnapshot& take_snapshot) {
+  const Status status = compute([&](ProgressReport* progress) {
+    progress->set_snapshots(take_snapshot);
     return solve_scene(loaded.scene, loaded.patches, options_, pool_, progress, solution,
                        certificate);
   });

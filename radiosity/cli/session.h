@@ -26,8 +26,10 @@ public:
   /// run leaves beside `output`; shares out the memory there is. Call it once, before the work.
   Status begin_files(const std::string& output);
 
+  /// @param take_snapshot  of progressive refinement; may be empty
   /// @return also what became of the files of form factors
-  Status solve(Solution* solution, Certificate* certificate);
+  Status solve(Solution* solution, Certificate* certificate,
+               const ProgressReport::TakeSnapshot& take_snapshot = {});
   /// @param rows  of these patches; empty = of all
   Status form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
                       Certificate* certificate);

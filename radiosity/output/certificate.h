@@ -27,8 +27,9 @@ struct EnergyBalance {
   double absorbed = 0;  ///< sum A (1 - rho) H
   double back_side = 0; ///< sum A b B: sent to back sides, lost
   double escaped = 0;   ///< sum A s B: sent to space, lost
-  double imbalance =
-      0; ///< (emitted - absorbed - back_side - escaped) / emitted; 0 if nothing is emitted
+  double cut = 0;       ///< shooting without a matrix: more than a patch can receive, dropped
+  double unshot = 0;    ///< shooting without a matrix: sum A (unshot B)
+  double imbalance = 0; ///< (emitted - all that follow it) / emitted; 0 if nothing is emitted
 };
 
 /// The error report of a run; `result` of report.json. Bit-equal for every thread count,
@@ -54,6 +55,13 @@ struct Certificate {
   BalanceReport balance;
 
   bool solved = false; ///< the fields below are filled
+  const char* solver = "";
+  bool has_residual = false; ///< residual and estimated error are known: there is a matrix
+  bool has_shots = false;    ///< the three below are filled
+  std::uint64_t shots = 0;
+  double unshot = 0; ///< unshot power over emitted power
+  double unshot_bound =
+      0; ///< on what unshot light can still add to sum A B, relative; infinity if none is known
   double residual = 0; ///< max|E + rho H - B| / max|B|
   double estimated_error =
       0; ///< bound on the relative error of B from the residual; infinity if none is known

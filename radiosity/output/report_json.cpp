@@ -39,9 +39,14 @@ Json energy_json(const Certificate& certificate) {
       {"absorbed", &EnergyBalance::absorbed},
       {"back_side", &EnergyBalance::back_side},
       {"escaped", &EnergyBalance::escaped},
+      {"cut", &EnergyBalance::cut},
+      {"unshot", &EnergyBalance::unshot},
       {"imbalance", &EnergyBalance::imbalance}};
   Json json = Json::object();
   for (const auto& [key, quantity] : kQuantities) {
+    const bool is_of_shots = quantity == &EnergyBalance::cut || quantity == &EnergyBalance::unshot;
+    if (is_of_shots && certificate.has_residual)
+      continue;
     Json values = Json::array();
     for (const EnergyBalance& band : certificate.energy)
       values.push_back(band.*quantity);
@@ -118,6 +123,10 @@ Json options_json(const ReportParts& parts) {
     set(&json, "tolerance", options.tolerance);
     json["max_sweeps"] = options.max_sweeps;
     json["black_irradiance"] = options.black_irradiance;
+    if (options.stop_unshot > 0)
+      set(&json, "stop_unshot", options.stop_unshot);
+    if (options.max_shots != ~std::uint64_t{0})
+      json["max_shots"] = options.max_shots;
   }
   return json;
 }
@@ -148,9 +157,17 @@ Json result_json(const ReportParts& parts) {
   if (certificate.balanced)
     json["balance"] = balance_json(certificate.balance);
   if (certificate.solved) {
-    set(&json, "residual", certificate.residual);
-    set(&json, "estimated_error", certificate.estimated_error);
-    json["sweeps"] = certificate.sweeps;
+    json["solver"] = certificate.solver;
+    if (certificate.has_residual) {
+      set(&json, "residual", certificate.residual);
+      set(&json, "estimated_error", certificate.estimated_error);
+      json["sweeps"] = certificate.sweeps;
+    }
+    if (certificate.has_shots) {
+      json["shots"] = certificate.shots;
+      set(&json, "unshot", certificate.unshot);
+      set(&json, "unshot_bound", certificate.unshot_bound);
+    }
     json["converged"] = certificate.converged;
     json["rounding_floor"] = certificate.rounding_floor;
     Json bands = Json::array();

@@ -44,8 +44,12 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
 
   Buffer<float> corner_radiosity;
   HC_TRY(vertex_radiosities(patches, solution.radiosity, solution.band_count, &corner_radiosity));
+  Buffer<double> displayed;
+  Buffer<float> corner_display;
+  HC_TRY(displayed_radiosity(solution, &displayed));
+  HC_TRY(vertex_radiosities(patches, displayed, solution.band_count, &corner_display));
   Picture picture;
-  HC_TRY(draw_picture(scene, patches, solution, corner_radiosity, parts.camera, parts.kernels,
+  HC_TRY(draw_picture(scene, patches, solution, corner_display, parts.camera, parts.kernels,
                       &picture));
   const Result<double> exposure = choose_exposure(picture, parts.exposure);
   HC_TRY(exposure.status());
@@ -56,6 +60,16 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
 }
 
 } // namespace
+
+Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity) {
+  HC_TRY(radiosity->resize(solution.radiosity.size()));
+  for (std::size_t at = 0; at < radiosity->size(); ++at) {
+    const double ambient =
+        solution.ambient.empty() ? 0 : solution.ambient[at % solution.band_count];
+    (*radiosity)[at] = solution.radiosity[at] + solution.reflectance[at] * ambient;
+  }
+  return {};
+}
 
 Status begin_solution(FileSet* files, const std::string& folder) {
   HC_TRY(files->begin(folder));

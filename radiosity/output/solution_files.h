@@ -32,4 +32,8 @@ Status begin_solution(FileSet* files, const std::string& folder);
 Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
                       std::string* picture_note);
 
+/// Radiosity as pictures show it: where light is still unshot, with what the ambient term makes of
+/// it (Cohen et al. 1988). Tables and PLY files never have it.
+Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity);
+
 } // namespace hemicube::radiosity

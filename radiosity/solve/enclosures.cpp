@@ -104,7 +104,32 @@ Status spread_losses(const FormFactorMatrix& matrix, std::uint32_t bands,
   return {};
 }
 
+Status refuse(const LightProblem& problem, std::size_t patch, std::uint32_t band) {
+  return Status::error(StatusCode::kSingular, "no solution: the enclosure of patch ", patch,
+                       " reflects everything in band ",
+                       problem.band_names.empty() ? "" : problem.band_names[band],
+                       ", is closed, and has light: lower a reflectance below 1, or open it");
+}
+
 } // namespace
+
+Status check_enclosures(const LightProblem& problem, const Enclosures& enclosures,
+                        std::span<const double> source) {
+  const std::uint32_t bands = problem.band_count;
+  Buffer<std::uint8_t> loses; // [enclosure][band]
+  HC_TRY(loses.resize(enclosures.first_patch.size() * bands));
+  for (std::size_t i = 0; i < problem.patch_count(); ++i)
+    if (const std::size_t e = enclosures.of_patch[i]; e != Enclosures::kNone)
+      for (std::uint32_t b = 0; b < bands; ++b)
+        loses[e * bands + b] |=
+            problem.reflectance[i * bands + b] < 1 || enclosures.is_open[i] != 0;
+  for (std::uint32_t b = 0; b < bands; ++b)
+    for (std::size_t i = 0; i < problem.patch_count(); ++i)
+      if (const std::size_t e = enclosures.of_patch[i];
+          e != Enclosures::kNone && loses[e * bands + b] == 0 && source[i * bands + b] > 0)
+        return refuse(problem, i, b);
+  return {};
+}
 
 Status check_solvable(const FormFactorMatrix& matrix, const LightProblem& problem,
                       const Enclosures& enclosures, std::span<const double> source) {
@@ -125,10 +150,7 @@ Status check_solvable(const FormFactorMatrix& matrix, const LightProblem& proble
   for (std::uint32_t band = 0; band < bands; ++band)
     for (std::size_t i = 0; i < count; ++i)
       if (loses[i * bands + band] == 0 && source[i * bands + band] > 0)
-        return Status::error(StatusCode::kSingular, "no solution: the enclosure of patch ", i,
-                             " reflects everything in band ",
-                             problem.band_names.empty() ? "" : problem.band_names[band],
-                             ", is closed, and has light: lower a reflectance below 1, or open it");
+        return refuse(problem, i, band);
   return {};
 }
 

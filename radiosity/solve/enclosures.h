@@ -45,4 +45,8 @@ private:
 Status check_solvable(const FormFactorMatrix& matrix, const LightProblem& problem,
                       const Enclosures& enclosures, std::span<const double> source);
 
+/// The same without a matrix, taking what one patch sees of another to be seen back.
+Status check_enclosures(const LightProblem& problem, const Enclosures& enclosures,
+                        std::span<const double> source);
+
 } // namespace hemicube::radiosity

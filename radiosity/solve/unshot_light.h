@@ -36,7 +36,7 @@ public:
   double power(std::uint32_t band) const noexcept { return power_[band]; } ///< sum A |unshot|
 
 private:
-  static constexpr double kMostOvershot = 0.5;
+  static constexpr double kMostOvershot = 0.25;
   double overshoot(std::size_t patch, std::uint32_t band) const noexcept;
 
   const LightProblem* problem_ = nullptr;

@@ -117,6 +117,39 @@ TEST_F(SolveTest, ThreadsAndInstructionSetsGiveTheSameFiles) {
   }
 }
 
+TEST_F(SolveTest, ProgressiveRefinementShootsAndTakesSnapshots) {
+  const std::string scene = write_room();
+  const ProgramResult stopped =
+      run_hemicube({"solve", scene, "--solver", "progressive", "--max-shots", "2",
+                    "--snapshot-every", "1", "--quiet", "--json", "-o", path("out")});
+  EXPECT_EQ(stopped.exit_code, 1) << stopped.err;
+  const Json result = Json::parse(stopped.out)["result"];
+  EXPECT_EQ(result["solver"], "progressive");
+  EXPECT_EQ(result["shots"], 2);
+  EXPECT_FALSE(result["converged"]);
+  EXPECT_GT(result["unshot"], 0.001);
+  EXPECT_FALSE(result.contains("residual"));
+  EXPECT_TRUE(std::filesystem::exists(path("out/snapshots/000002.png")));
+  const Json done =
+      Json::parse(run(0, {"solve", scene, "--solver", "progressive", "--json"}).out)["result"];
+  EXPECT_LE(done["unshot"], 0.001);
+  EXPECT_LE(std::abs(done["energy"]["imbalance"][0].get<double>()), 1e-12);
+}
+
+TEST_F(SolveTest, SolversAgree) {
+  const std::string scene = write_room();
+  run(0, {"solve", scene, "--tolerance", "1e-10", "--balance", "-o", path("gs")});
+  const std::vector<double> want = numbers(read("gs/patches.csv"), "radiosity_r");
+  for (const std::string solver : {"jacobi", "progressive"}) {
+    run(0, {"solve", scene, "--tolerance", "1e-10", "--balance", "--solver", solver, "-o",
+            path("out")});
+    const std::vector<double> got = numbers(read("out/patches.csv"), "radiosity_r");
+    ASSERT_EQ(got.size(), want.size());
+    for (std::size_t i = 0; i < got.size(); ++i)
+      EXPECT_NEAR(got[i], want[i], 1e-8 * (1 + want[i])) << solver;
+  }
+}
+
 TEST_F(SolveTest, MaxEdgeSubdivides) {
   const Json coarse = Json::parse(run(0, {"solve", write_room(), "--json"}).out);
   const Json fine =

@@ -81,7 +81,7 @@ TEST_F(UsageTest, UnknownCommandsAndOptionsAreNamed) {
 
 TEST_F(UsageTest, CommandsOfOtherVersionsAreNotOffered) {
   const std::string scene = write_room();
-  for (const std::string option : {"--rung", "--error", "--solver", "--adaptive"})
+  for (const std::string option : {"--rung", "--error", "--adaptive"})
     expect_refused(2, {"solve", scene, option}, {option});
 }
 
@@ -95,6 +95,18 @@ TEST_F(UsageTest, ValuesOutOfRangeAreNamedWithTheRange) {
     expect_refused(2, {"solve", scene, "--threads", value}, {"--threads " + value});
   for (const std::string value : {"0", "-1e-6", "1", "nan", "inf", "1e-6x", "1,5"})
     expect_refused(2, {"solve", scene, "--tolerance", value}, {"--tolerance " + value});
+  for (const std::string value : {"0", "-0.1", "1", "nan", "inf"})
+    expect_refused(2, {"solve", scene, "--solver", "progressive", "--stop-unshot", value},
+                   {"--stop-unshot " + value});
+  for (const std::string value : {"-1", "1.5", "nan", "many"})
+    expect_refused(2, {"solve", scene, "--solver", "progressive", "--max-shots", value},
+                   {"--max-shots " + value});
+  expect_refused(2, {"solve", scene, "--solver", "progressive", "--snapshot-every", "0"},
+                 {"--snapshot-every 0"});
+  expect_refused(2, {"solve", scene, "--solver", "progressive", "--snapshot-every", "5"},
+                 {"--snapshot-every", "-o"});
+  expect_refused(2, {"solve", scene, "--solver", "guess"}, {"--solver guess", "jacobi"});
+  expect_refused(2, {"solve", scene, "--max-shots", "5"}, {"--max-shots", "progressive"});
   for (const std::string value : {"0", "-1", "nan", "inf", "1m"})
     expect_refused(2, {"solve", scene, "--max-edge", value}, {"--max-edge " + value});
   for (const std::string value : {"0x5", "100", "10x", "16385x1", "-1x4"})

@@ -39,7 +39,7 @@ const std::vector<std::string> kRooms = {
 /// solver.
 const std::vector<std::string> kSharedHeaders = {"radiosity/elementary.h"};
 const std::vector<std::string> kFacade = {"radiosity/radiosity.h", "radiosity/light_model.h",
-                                          "radiosity/row_run.h"};
+                                          "radiosity/row_run.h", "radiosity/shoot_scene.h"};
 
 bool starts_with(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
