@@ -1,6 +1,9 @@
-// The solvers: sweeps against plain reading. Usage: solvers_bench OUTPUT_FOLDER [repetitions]
+// The solvers: error against sweeps and time, sweeps against plain reading. Usage: solvers_bench
+// OUTPUT_FOLDER [repetitions]
 #include "bench/machine.h"
 #include "bench/solvers/solvers.h"
+#include "raster/kernels.h"
+#include "raster/simd/dispatch.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -27,6 +30,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const int repetitions = argc > 2 ? std::atoi(argv[2]) : 5;
+  write(argv[1], "convergence.csv",
+        "solver,reflectance,sweeps_or_shots_per_patch,seconds,residual,error\n",
+        {{hemicube::raster::best_kernels().name, time_convergence()}});
   Tables sweeps;
   if (!time_sweeps(repetitions, &sweeps))
     return 1;

@@ -55,4 +55,7 @@ std::uint64_t hash_of(const Buffer<double>& values);
 /// The table of sweeps against plain reading. @return false if hashes differ
 bool time_sweeps(int repetitions, Tables* tables);
 
+/// The error after so many sweeps and shots, and what they took: lines of convergence.csv.
+std::string time_convergence();
+
 } // namespace hemicube::bench
