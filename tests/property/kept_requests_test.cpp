@@ -150,6 +150,31 @@ TEST(KeptRequests, ToleranceKernelsAndMemoryGoOn) {
   EXPECT_EQ(kept.files.rows_resumed, 37u);
 }
 
+// Catches: rows that were finished since the file was last due, and are dropped when a run ends
+// early.
+TEST(KeptRequests, WhatAnInterruptedRunFinishedIsKept) {
+  const Scene scene = kept_room();
+  for (const Rung rung : {Rung::kHemicube, Rung::kAdaptive}) {
+    KeptRun kept;
+    Watch first(20), second;
+    // Two blocks are finished; then the run ends, and asks a third time.
+    kept.rows.due_every = kept.pairs.due_every = 3;
+    ASSERT_EQ(form_factors_kept(scene, at(rung), &kept, 1, &first).status.code(),
+              StatusCode::kCancelled);
+    EXPECT_EQ(form_factors_kept(scene, at(rung), &kept), form_factors_kept(scene, at(rung)));
+    EXPECT_EQ(kept.files.rows_resumed, 16u);
+  }
+  KeptRun kept;
+  Watch first(27 + 3, 1),
+      second; // of 10 black patches the first 3; 2 of them are in the first block
+  kept.black_rows.due_every = 2;
+  ASSERT_EQ(solve_kept(scene, at(Rung::kHemicube), &kept, 1, &first).status.code(),
+            StatusCode::kCancelled);
+  EXPECT_EQ(solve_kept(scene, at(Rung::kHemicube), &kept, 1, &second),
+            solve_kept(scene, at(Rung::kHemicube)));
+  EXPECT_EQ(second.loops.back().first, 27u + 2);
+}
+
 // Catches: a failure of the disk that is not told, or costs what was there before it.
 TEST(KeptRequests, AFullDiskEndsTheRunAndTheNextOneGoesOn) {
   const Scene scene = kept_room();
