@@ -1,0 +1,211 @@
+// Runs that are killed, interrupted, crowded out or left without disk: the same command goes on
+// where they ended, and yields what an undisturbed run does.
+
+#include "tests/cli/cli_case.h"
+
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+namespace hemicube::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+constexpr int kUntilFirst = 3000; ///< milliseconds before a run writes anything
+
+class KilledRunsTest : public CliCase {
+protected:
+  void SetUp() override {
+    CliCase::SetUp();
+    scene_ = write_room();
+  }
+
+  /// The options of a run of about ten seconds on one thread, in rows of one kind or another.
+  Words slow(Words words, const std::string& threads = "1") const {
+    words.insert(words.begin() + 1, scene_);
+    for (const char* word : {"--rung", "hemicube", "--resolution", "1024", "--max-edge", "0.0625"})
+      words.push_back(word);
+    words.insert(words.end(), {"--threads", threads, "--json"});
+    return words;
+  }
+
+  Json report(const Words& words) const { return Json::parse(run(0, words).out); }
+
+  /// Sends a signal to a run after some milliseconds. @return false if it had ended by itself
+  static bool stop_after(Program* program, int milliseconds, int signal) {
+    const auto end = Clock::now() + std::chrono::milliseconds(milliseconds);
+    while (Clock::now() < end) {
+      if (program->has_ended())
+        return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    program->send(signal);
+    return true;
+  }
+
+  void wait_for(const std::string& name, Program* program) const {
+    while (!std::filesystem::exists(path(name)) && !program->has_ended())
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+
+  bool has_leftovers() const {
+    for (const std::string& name : new_files())
+      if (name.find(".part") != std::string::npos)
+        return true;
+    return false;
+  }
+
+  /// Starts a command until it ends well, whatever it takes; kills it at random moments before.
+  /// @return the report of the last run
+  Json run_through_kills(const Words& words, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    for (int runs = 0; runs < 15; ++runs) {
+      Program program(hemicube_path(), words);
+      // Now and then too early to have left anything.
+      const int moment = runs == 1 ? static_cast<int>(random() % 500)
+                                   : kUntilFirst + 300 + static_cast<int>(random() % 2000);
+      if (stop_after(&program, moment, SIGKILL)) {
+        EXPECT_EQ(program.wait().exit_code, 128 + SIGKILL);
+        continue;
+      }
+      const ProgramResult result = program.wait();
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_GE(runs, 2) << "the run is too short for this test";
+      return Json::parse(result.out);
+    }
+    ADD_FAILURE() << "the run never ends";
+    return {};
+  }
+
+  std::string scene_;
+};
+
+// Catches: rows of a killed run that are lost, taken although they are not whole, or mixed up.
+TEST_F(KilledRunsTest, KilledFormFactorsGoOnUntilTheyEnd) {
+  const Json expected = report(slow({"formfactors"}, "2"));
+  const Json last = run_through_kills(slow({"formfactors", "-o", path("f.hcf")}), 1);
+  EXPECT_EQ(last["result"], expected["result"]);
+  EXPECT_GT(last["run"]["rows_resumed"], 0);
+  EXPECT_EQ(new_files(), (std::set<std::string>{"f.hcf", "f.rows.csv"}));
+  const Json solved = report({"solve", scene_, "--max-edge", "0.0625", "--form-factors",
+                              path("f.hcf"), "--json", "--no-black-irradiance"});
+  EXPECT_EQ(solved["result"]["hashes"]["form_factors"],
+            expected["result"]["hashes"]["form_factors"]);
+}
+
+TEST_F(KilledRunsTest, AKilledSolveGoesOnUntilItEnds) {
+  const Json expected = report(slow({"solve"}, "2"));
+  const Json last = run_through_kills(slow({"solve", "-o", path("out")}), 2);
+  EXPECT_EQ(last["result"], expected["result"]);
+  EXPECT_GT(last["run"]["rows_resumed"], 0);
+  EXPECT_FALSE(has_leftovers());
+  EXPECT_EQ(Json::parse(read("out/report.json"))["result"], expected["result"]);
+}
+
+// Catches: an interruption that loses what a kill would not, or does not say how to go on.
+TEST_F(KilledRunsTest, InterruptedRunsSayHowToGoOn) {
+  const Json expected = report(slow({"formfactors"}, "2"));
+  std::string words_of_the_last;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Program program(hemicube_path(), slow({"formfactors", "-o", path("f.hcf")}));
+    ASSERT_TRUE(stop_after(&program, kUntilFirst + 1000, signal)) << "the run is too short";
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    for (const std::string part :
+         {"interrupted", path("f.hcf.part").c_str(), "the same command goes on from there"})
+      EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(new_files(), std::set<std::string>{"f.hcf.part"});
+  }
+  const Json last = report(slow({"formfactors", "-o", path("f.hcf")}, "2"));
+  EXPECT_EQ(last["result"], expected["result"]);
+  EXPECT_GT(last["run"]["rows_resumed"], 0);
+  EXPECT_FALSE(has_leftovers());
+}
+
+TEST_F(KilledRunsTest, ShortRunsThatAreInterruptedLeaveNothing) {
+  for (const Words& words :
+       {slow({"formfactors", "-o", path("f.hcf")}), slow({"formfactors", "-o", path("f.mtx")}),
+        slow({"solve", "-o", path("out")}), slow({"solve", "--form-factors", path("f.hcf")})}) {
+    const auto start = Clock::now();
+    Program program(hemicube_path(), words);
+    ASSERT_TRUE(stop_after(&program, 400, SIGINT));
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    if (Clock::now() - start < std::chrono::milliseconds(kUntilFirst)) { // on a machine that stalls
+      EXPECT_EQ(result.err.find("goes on"), std::string::npos) << result.err;
+      EXPECT_EQ(new_files(), std::set<std::string>());
+    }
+  }
+}
+
+// Catches: runs that write into each other's files, or into a file that was put in place.
+TEST_F(KilledRunsTest, OfTwoRunsOnOneOutputOneEndsWell) {
+  const Json expected = report(slow({"formfactors"}, "2"));
+  const Words words = slow({"formfactors", "-o", path("f.hcf")});
+  Program first(hemicube_path(), words), second(hemicube_path(), words);
+  wait_for("f.hcf.part", &first);
+  // Who comes later learns it at once.
+  const ProgramResult late = run(1, words);
+  EXPECT_NE(late.err.find(path("f.hcf.part") + ": is in use"), std::string::npos) << late.err;
+  ProgramResult results[] = {first.wait(), second.wait()};
+  if (results[0].exit_code != 0)
+    std::swap(results[0], results[1]);
+  EXPECT_EQ(results[0].exit_code, 0) << results[0].err;
+  EXPECT_EQ(results[1].exit_code, 1);
+  EXPECT_NE(results[1].err.find(path("f.hcf.part") + ": is in use"), std::string::npos)
+      << results[1].err;
+  EXPECT_EQ(Json::parse(results[0].out)["result"], expected["result"]);
+  EXPECT_EQ(new_files(), (std::set<std::string>{"f.hcf", "f.rows.csv"}));
+  const Json given = report(
+      {"formfactors", scene_, "--max-edge", "0.0625", "--form-factors", path("f.hcf"), "--json"});
+  EXPECT_EQ(given["result"]["hashes"]["form_factors"],
+            expected["result"]["hashes"]["form_factors"]);
+}
+
+// A limit on the size of files is as good as a full disk. Catches: rows that are lost with the
+// disk.
+TEST_F(KilledRunsTest, AFullDiskSaysWhatToDo) {
+  const Json expected = report(slow({"formfactors"}, "2"));
+  const Words words = slow({"formfactors", "-o", path("f.hcf")});
+  for (const char* blocks : {"2000", "6000"}) { // of 512 bytes
+    std::string command = std::string("trap '' XFSZ; ulimit -f ") + blocks + "; exec \"$0\" \"$@\"";
+    Words arguments = {"-c", command, hemicube_path()};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    Program program("/bin/sh", arguments);
+    const ProgramResult result = program.wait();
+    EXPECT_EQ(result.exit_code, 1);
+    for (const std::string part :
+         {path("f.hcf.part").c_str(), "File too large", "make room and run again"})
+      EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
+    EXPECT_EQ(new_files(), std::set<std::string>{"f.hcf.part"});
+  }
+  const Json last = report(slow({"formfactors", "-o", path("f.hcf")}, "2"));
+  EXPECT_EQ(last["result"], expected["result"]);
+  EXPECT_GT(last["run"]["rows_resumed"], 0);
+  EXPECT_FALSE(has_leftovers());
+}
+
+// Catches: what another request left mixed into this one's rows, or kept for ever.
+TEST_F(KilledRunsTest, AnotherRequestBeginsAnew) {
+  Program program(hemicube_path(), slow({"formfactors", "-o", path("f.hcf")}));
+  wait_for("f.hcf.part", &program);
+  ASSERT_TRUE(stop_after(&program, 0, SIGKILL));
+  program.wait();
+  ASSERT_TRUE(std::filesystem::exists(path("f.hcf.part")));
+  const Words quick = {"formfactors", scene_,     "--max-edge", "0.0625",
+                       "--rung",      "hemicube", "--json",     "--resolution",
+                       "16",          "-o",       path("f.hcf")};
+  const Json other = report(quick);
+  EXPECT_EQ(other["run"]["rows_resumed"], 0);
+  EXPECT_EQ(new_files(), (std::set<std::string>{"f.hcf", "f.rows.csv"}));
+  EXPECT_EQ(other["result"], report({quick.begin(), quick.end() - 2})["result"]);
+}
+
+} // namespace
+} // namespace hemicube::test
