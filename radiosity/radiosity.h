@@ -42,10 +42,9 @@ struct Options {
   bool estimate_error = false; ///< certify the error by a sample of finer rows
   double tolerance = 1e-6;     ///< on the estimated relative error of B
   std::uint64_t max_sweeps = 1000000;
+  /// kProgressive works on a matrix with `balance`, or where `files` give or keep all rows; else
+  /// each row is made when its patch shoots.
   SolverKind solver = SolverKind::kGaussSeidel;
-  /// Progressive refinement: with all rows kept, as with `balance`; else each is made when its
-  /// patch shoots.
-  bool keep_matrix = false;
   double stop_unshot = 0; ///< progressive: stop at this share of unshot light; 0: at the tolerance
                           ///< with all rows, else at 0.001
   std::uint64_t max_shots = ~std::uint64_t{0};

@@ -37,7 +37,7 @@ public:
   /// Instead of the two: light without a matrix.
   bool shoots() const {
     return options_.solver == SolverKind::kProgressive && !options_.balance &&
-           !options_.keep_matrix;
+           !kept_.hold_black_rows() && !kept_.are_given();
   }
   Status shoot(Certificate* certificate);
   /// @param is_enough  false if a finer setting was chosen: matrix and light are to be made again

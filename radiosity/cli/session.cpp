@@ -51,7 +51,9 @@ Status Session::begin_files(const std::string& output) {
   MemoryPlan plan;
   HC_TRY(plan_memory(line.memory_bytes, loaded.patches.patch_count(), loaded.scene.band_count(),
                      pool_.worker_count(), &plan));
-  kept_.files.most_bytes = plan.most_rows;
+  // Shooting reads a matrix by columns, from a second copy.
+  const bool has_columns = line.options.solver == SolverKind::kProgressive;
+  kept_.files.most_bytes = has_columns ? plan.most_rows / 2 : plan.most_rows;
   kept_.files.range_bytes = plan.row_range;
   options_.files = &kept_.files;
   return {};

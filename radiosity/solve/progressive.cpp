@@ -66,6 +66,10 @@ private:
 };
 
 Status Progressive::init() {
+  if (!system_.matrix().is_in_memory())
+    return Status::error(StatusCode::kOutOfMemory, "shooting needs the form factors in memory, ",
+                         2 * system_.matrix().byte_count(), " bytes for rows and columns: allow ",
+                         "more with --memory, or take another solver");
   const std::size_t count = problem_.patch_count();
   Buffer<double> emitted;
   HC_TRY(emitted.resize(bands_));

@@ -17,7 +17,7 @@ struct ReportTest : ::testing::Test {
     certificate.row_sum = {0.9, 0.95, 1};
     certificate.scene_hash = 0xabcu;
     certificate.radiosity_hash = 0xfedcba9876543210u;
-    certificate.solved = true;
+    certificate.solved = certificate.has_residual = true;
     certificate.estimated_error = 0.1;
     require(certificate.energy.push_back({1, 2, 3, 4, 5}));
     require(certificate.energy.push_back({6, 7, 8, 9, 10}));
