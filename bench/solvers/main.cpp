@@ -31,8 +31,11 @@ int main(int argc, char** argv) {
   }
   const int repetitions = argc > 2 ? std::atoi(argv[2]) : 5;
   write(argv[1], "convergence.csv",
-        "solver,reflectance,sweeps_or_shots_per_patch,seconds,residual,error\n",
+        "scene,patches,solver,sweeps_or_shots_per_patch,seconds,residual,error\n",
         {{hemicube::raster::best_kernels().name, time_convergence()}});
+  write(argv[1], "progressive.csv",
+        "scene,patches,solver,sweeps_or_shots,seconds,error,radiosity_hash\n",
+        {{hemicube::raster::best_kernels().name, time_shooting()}});
   Tables sweeps;
   if (!time_sweeps(repetitions, &sweeps))
     return 1;

@@ -55,7 +55,12 @@ std::uint64_t hash_of(const Buffer<double>& values);
 /// The table of sweeps against plain reading. @return false if hashes differ
 bool time_sweeps(int repetitions, Tables* tables);
 
-/// The error after so many sweeps and shots, and what they took: lines of convergence.csv.
+/// The error after so many sweeps and shots on a stored matrix, and what they took: lines of
+/// convergence.csv.
 std::string time_convergence();
+
+/// The error of progressive refinement without a matrix after so many shots, and of Gauss-Seidel,
+/// against time, rows included: lines of progressive.csv.
+std::string time_shooting();
 
 } // namespace hemicube::bench

@@ -3,6 +3,7 @@
 #include "radiosity/radiosity.h"
 #include "radiosity/solve/gauss_seidel.h"
 #include "radiosity/solve/row_shooter.h"
+#include "tests/support/memory_file.h"
 #include "tests/support/solved.h"
 #include "tests/unit/solver_systems.h"
 
@@ -117,7 +118,11 @@ TEST_F(ShootScene, ThreadsGiveTheSameBits) {
 TEST_F(ShootScene, AgreesWithGaussSeidelWhereFormFactorsAreReciprocal) {
   for (const bool keeps : {false, true}) {
     Options shooting = options(), sweeping = options();
-    shooting.keep_matrix = keeps;
+    test::MemoryFile file;
+    RunFiles files;
+    files.rows = &file;
+    files.keeps_black_rows = true;
+    shooting.files = keeps ? &files : nullptr;
     shooting.stop_unshot = keeps ? 0 : 1e-8;
     sweeping.solver = SolverKind::kGaussSeidel;
     const test::Solved got = test::solve(test::t_vertex_room(), shooting);
