@@ -3,6 +3,7 @@
 #include "radiosity/solve/gauss_seidel.h"
 #include "raster/hash.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -32,10 +33,22 @@ Status spread_defects(const RowSample& sample, const FormFactorMatrix& matrix,
     const double value = radiosity[at] - problem.exitance[at];
     return value > 0 ? value : 0;
   };
-  Buffer<double> products, squares, relative;
+  Buffer<double> products, squares, relative, typical;
   HC_TRY(products.resize(bands));
   HC_TRY(squares.resize(bands));
   HC_TRY(relative.resize(patches.size() * bands));
+  HC_TRY(typical.resize(bands));
+  double weights = 0;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const double weight = sample.stands_for(k) * problem.area[patches[k]];
+    weights += weight;
+    for (std::uint32_t b = 0; b < bands; ++b) {
+      const double base = reflected(std::size_t{patches[k]} * bands + b);
+      typical[b] += weight * base * base;
+    }
+  }
+  for (double& light : typical)
+    light = std::sqrt(light / weights);
   FormFactorMatrix rows;
   HC_TRY(rows.copy_rows(matrix, patches));
   for (std::size_t k = 0; k < patches.size(); ++k) {
@@ -46,7 +59,10 @@ Status spread_defects(const RowSample& sample, const FormFactorMatrix& matrix,
       const double weight = sample.stands_for(k) * problem.area[patches[k]];
       products[b] += weight * base * of_row[b];
       squares[b] += weight * base * base;
-      of_row[b] = base > 0 ? of_row[b] / base : 0;
+      // What a dark patch has wrong may be many times its own light: its neighbours, which may be
+      // bright, are not wrong by so many times theirs.
+      const double scale = std::max(base, typical[b]);
+      of_row[b] = scale > 0 ? of_row[b] / scale : 0;
     }
   }
   std::size_t nearest = 0;

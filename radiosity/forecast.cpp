@@ -7,7 +7,22 @@
 namespace hemicube::radiosity {
 namespace {
 
-constexpr std::uint32_t kRows = 64, kExactRows = 16;
+constexpr std::uint32_t kRun = 16, kFirstRuns = 1, kExactRows = 16;
+/// Rows that draw nothing but item buffers are cheap.
+constexpr std::uint32_t kRuns = 14, kCheapRuns = 100;
+
+/// Rows in runs of kRun that follow each other, as in the run itself, spread over all patches.
+Status choose_runs(std::uint32_t patch_count, std::uint32_t runs, Buffer<std::uint32_t>* rows) {
+  rows->clear();
+  const std::uint64_t places = patch_count > kRun ? patch_count - kRun : 0;
+  for (std::uint32_t k = 0; k < runs; ++k)
+    for (std::uint32_t i = 0; i < kRun; ++i) {
+      const auto row = static_cast<std::uint32_t>(places * k / runs + i);
+      if (row < patch_count && (rows->empty() || row > rows->back()))
+        HC_TRY(rows->push_back(row));
+    }
+  return {};
+}
 
 } // namespace
 
@@ -34,16 +49,22 @@ Status forecast(const Scene& scene, const PatchSet& patches, const Options& opti
   f.shares_pairs = f.setting.rung >= Rung::kArea;
   progress->finished(ForecastPart::kChoice);
 
-  RowSample sample;
+  Buffer<std::uint32_t> places;
   FormFactorMatrix rows;
-  HC_TRY(sample.choose(patches.patch_count(), kRows));
-  HC_TRY(compute_sampled_rows(&geometry, f.setting, options, executor, sample.patches(), &rows));
+  HC_TRY(choose_runs(patches.patch_count(), kFirstRuns, &places));
+  HC_TRY(compute_sampled_rows(&geometry, f.setting, options, executor, places.span(), &rows));
+  f.first_rows = rows.row_count();
+  progress->finished(ForecastPart::kFirstRows);
+  const std::uint32_t runs = f.setting.rung == Rung::kHemicube ? kCheapRuns : kRuns;
+  HC_TRY(choose_runs(patches.patch_count(), runs, &places));
+  HC_TRY(compute_sampled_rows(&geometry, f.setting, options, executor, places.span(), &rows));
   f.rows = rows.row_count();
   f.nonzeros = rows.nonzero_count();
   progress->finished(ForecastPart::kRows);
 
   if (!options.estimate_error || f.setting.rung == Rung::kExact)
     return {};
+  RowSample sample;
   HC_TRY(sample.choose(patches.patch_count(), kExactRows));
   HC_TRY(compute_exact_rows(&geometry, f.setting, options, executor, &sample));
   f.exact_rows = sample.patches().size();

@@ -8,7 +8,8 @@ namespace hemicube::radiosity {
 enum class ForecastPart {
   kGeometry,  ///< what all rows share
   kChoice,    ///< of rung and resolution
-  kRows,      ///< Forecast::rows of them
+  kFirstRows, ///< Forecast::first_rows, and what a worker needs before its first one
+  kRows,      ///< Forecast::rows more, and the same again
   kExactRows, ///< Forecast::exact_rows of those that errors are estimated by
 };
 
@@ -28,8 +29,8 @@ struct Forecast {
   std::uint64_t rows_to_build = 0; ///< of all patches whose rows are wanted
   std::uint64_t rows_to_store = 0; ///< of these, what the solver keeps
   std::uint32_t solved_bands = 0;
-  std::uint64_t rows = 0, nonzeros = 0; ///< of the sample: built each alone
-  std::uint64_t exact_rows = 0;         ///< of the sample
+  std::uint64_t first_rows = 0, rows = 0, nonzeros = 0; ///< of the sample: built each alone
+  std::uint64_t exact_rows = 0;                         ///< of the sample
   std::uint64_t exact_rows_to_build = 0;
 };
 

@@ -20,10 +20,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Rooms of about 5,500 patches each.
-constexpr double kCell = 0.18;
+/// Rooms of about 3,000 patches each, that see about 1,000 others.
+constexpr double kCell = 0.255;
 const std::vector<test::OfficePlan> kPlans = {
-    {2, 1, 1, kCell}, {3, 2, 1, kCell}, {3, 3, 2, kCell}, {5, 4, 3, kCell}};
+    {3, 1, 1, kCell}, {5, 2, 1, kCell}, {4, 4, 2, kCell}, {5, 5, 4, kCell}};
 
 struct Run {
   double patches, seconds, memory;

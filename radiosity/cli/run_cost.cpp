@@ -24,7 +24,7 @@ public:
   double operator[](ForecastPart part) const { return seconds[static_cast<std::size_t>(part)]; }
 
 private:
-  double seconds[4] = {};
+  double seconds[5] = {};
   Stopwatch watch_;
 };
 
@@ -61,11 +61,19 @@ Status predict_cost(Session* session, RunCost* cost) {
   c.memory_bytes =
       of(other_memory(loaded.patches.patch_count(), f.solved_bands, session->run.threads)) +
       1.1 * c.matrix_bytes + pair_bytes;
+  // What workers need before their first row is in both samples, and once in the run.
+  const double more = times[ForecastPart::kRows] - times[ForecastPart::kFirstRows];
+  const double row_seconds = f.rows > f.first_rows && more > 0 ? more / of(f.rows - f.first_rows)
+                                                               : times[ForecastPart::kRows] / rows;
+  const double begin_seconds =
+      std::max(0.0, times[ForecastPart::kFirstRows] - row_seconds * of(f.first_rows));
   c.form_factor_seconds =
-      times[ForecastPart::kRows] / rows * of(f.rows_to_build) / (f.shares_pairs ? 2 : 1);
-  const double exact_seconds = f.exact_rows == 0 ? 0
-                                                 : times[ForecastPart::kExactRows] *
-                                                       of(f.exact_rows_to_build) / of(f.exact_rows);
+      begin_seconds + row_seconds * of(f.rows_to_build) / (f.shares_pairs ? 2 : 1);
+  const double exact_seconds =
+      f.exact_rows == 0
+          ? 0
+          : begin_seconds + std::max(0.0, times[ForecastPart::kExactRows] - begin_seconds) *
+                                of(f.exact_rows_to_build) / of(f.exact_rows);
   const double passes = 2 * expected_sweeps(loaded, options.tolerance) + kOtherPasses;
   c.seconds = session->run.read_seconds + session->run.mesh_seconds +
               times[ForecastPart::kGeometry] + times[ForecastPart::kChoice] +

@@ -116,8 +116,8 @@ TEST_F(KilledRunsTest, InterruptedRunsSayHowToGoOn) {
     ASSERT_TRUE(stop_after(&program, kUntilFirst + 1000, signal)) << "the run is too short";
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 130);
-    for (const std::string part :
-         {"interrupted", path("f.hcf.part").c_str(), "the same command goes on from there"})
+    for (const std::string& part :
+         Words{"interrupted", path("f.hcf.part"), "the same command goes on from there"})
       EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(new_files(), std::set<std::string>{"f.hcf.part"});
@@ -180,8 +180,8 @@ TEST_F(KilledRunsTest, AFullDiskSaysWhatToDo) {
     Program program("/bin/sh", arguments);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.exit_code, 1);
-    for (const std::string part :
-         {path("f.hcf.part").c_str(), "File too large", "make room and run again"})
+    for (const std::string& part :
+         Words{path("f.hcf.part"), "File too large", "make room and run again"})
       EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
     EXPECT_EQ(new_files(), std::set<std::string>{"f.hcf.part"});
   }

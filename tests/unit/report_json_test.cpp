@@ -19,8 +19,8 @@ struct ReportTest : ::testing::Test {
     certificate.radiosity_hash = 0xfedcba9876543210u;
     certificate.solved = certificate.has_residual = true;
     certificate.estimated_error = 0.1;
-    require(certificate.energy.push_back({1, 2, 3, 4, 5}));
-    require(certificate.energy.push_back({6, 7, 8, 9, 10}));
+    require(certificate.energy.push_back({1, 2, 3, 4, 0, 0, 5}));
+    require(certificate.energy.push_back({6, 7, 8, 9, 0, 0, 10}));
     mesh.dropped_zero_area = 2;
     run.isa = "avx2";
     run.threads = 3;
