@@ -46,7 +46,7 @@ struct Case {
 const Case kCases[] = {
     {"cornell", [] { return file_scene("/scenes/cornell.obj"); }, 0.04},
     {"corridor", [] { return file_scene("/tests/reference/scenes/corridor_a.coarse.obj"); }, 0.35},
-    {"room, rho 0.99", white_room, 0.06},
+    {"white_room", white_room, 0.06},
 };
 
 PatchSet meshed(const Scene& scene, double max_edge) {
@@ -92,7 +92,7 @@ std::string time_case(const Case& of, Executor& executor) {
     (void)solver(matrix, problem, options, executor, nullptr, &b, &h, &convergence);
     const double seconds = watch.lap();
     char line[200];
-    std::snprintf(line, sizeof line, "\"%s\",%u,%s,%llu,%.4f,%.2e,%.2e\n", of.name,
+    std::snprintf(line, sizeof line, "%s,%u,%s,%llu,%.4f,%.2e,%.2e\n", of.name,
                   patches.patch_count(), name, static_cast<unsigned long long>(step), seconds,
                   convergence.residual, relative_rms(problem, b.span(), truth.span()));
     table += line;
@@ -141,7 +141,7 @@ std::string time_from_mesh(const Case& of, Executor& executor) {
     (void)solve_scene(scene, patches, options, executor, nullptr, &got, &certificate);
     const double seconds = watch.lap();
     char line[200];
-    std::snprintf(line, sizeof line, "\"%s\",%u,%s,%llu,%.4f,%.2e,%016llx\n", of.name,
+    std::snprintf(line, sizeof line, "%s,%u,%s,%llu,%.4f,%.2e,%016llx\n", of.name,
                   patches.patch_count(), name,
                   static_cast<unsigned long long>(certificate.shots + certificate.sweeps), seconds,
                   relative_rms(problem, same_bands(got), want),

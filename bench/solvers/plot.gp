@@ -8,10 +8,10 @@ set logscale y
 set format y "10^{%T}"
 solvers = "gauss-seidel jacobi progressive"
 colours = "#c03028 #2060b0 #409040"
-scenes = '"cornell" "corridor" "room, rho 0.99"'
+scenes = 'cornell corridor white_room'
 of(scene, name, x) = (strcol(1) eq scene && strcol(3) eq name) ? x : NaN
 do for [type in "svg png"] {
-  if (type eq "svg") { set terminal svg size 1200,640 font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,640 font "sans,9" }
+  if (type eq "svg") { set terminal svg size 1200,640 noenhanced font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,640 noenhanced font "sans,9" }
   set output folder . "/convergence." . type
   set multiplot layout 2,3 title "Stored matrix, one thread: error of B against the solution at 1e-13"
   do for [field in "4 5"] {
@@ -26,7 +26,7 @@ do for [type in "svg png"] {
   }
   unset multiplot
   unset output
-  if (type eq "svg") { set terminal svg size 1200,360 font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,360 font "sans,9" }
+  if (type eq "svg") { set terminal svg size 1200,360 noenhanced font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,360 noenhanced font "sans,9" }
   set output folder . "/progressive." . type
   set logscale x
   set multiplot layout 1,3 title "From the mesh to light, rows included, one thread"
