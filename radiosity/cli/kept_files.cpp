@@ -41,7 +41,8 @@ Status KeptFiles::finish(const Status& run) {
   const bool goes_on =
       code == StatusCode::kCancelled || code == StatusCode::kIo || code == StatusCode::kOutOfMemory;
   Status placed;
-  if (!hcf_.empty() && files.rows_are_finished)
+  // Of a run that did not end, the dial may still find the rows too coarse.
+  if (!hcf_.empty() && files.rows_are_finished && !goes_on)
     placed = rows_.rename(hcf_);
   else if (!goes_on)
     rows_.remove();
