@@ -23,10 +23,7 @@ Status RowRun::init(RowGeometry* geometry, const RungSetting& setting, const Opt
 
 Status RowRun::find_pairs(std::uint32_t patch_count) {
   constexpr std::uint32_t kRows = ExchangeTable::kBlockRows;
-  // So many rows tell what all of them will take.
-  const std::uint64_t telling = patch_count / 32 + kRows;
   HC_TRY(pairs_.init(patch_count, pair_storage_));
-  const std::uint64_t total = total_, kept = done_;
   std::uint64_t first = 0;
   if (pair_storage_.file != nullptr) {
     std::uint64_t rest = 0;
@@ -40,35 +37,33 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
   // Each patch finds its pairs, whether its row is wanted, or kept, or not.
   total_ = patch_count;
   done_ = first;
-  std::atomic<bool> is_too_large{false};
-  std::atomic<std::uint64_t> found{first};
+  const auto check_size = [&]() {
+    const std::uint64_t size = pairs_.byte_count(), most = pair_storage_.most_bytes;
+    // Rows found one by one would fit, but may differ: what two patches exchange is found once.
+    return size <= most
+               ? Status()
+               : Status::error(StatusCode::kOutOfMemory,
+                               "what pairs of patches exchange takes more ", "than the ", most,
+                               " bytes it may, after ", done_.load(), " of ", patch_count,
+                               " patches: allow more with --memory, or take rung ",
+                               "hemicube or analytic, which need no pairs");
+  };
+  HC_TRY(check_size());
   const auto find = [&](std::uint64_t index, LadderRow& builder, RowView*, RowFacts* facts, bool*) {
     const auto patch = static_cast<std::uint32_t>(index);
     ReceiverExchange exchange;
     HC_TRY(builder.find_pairs(patch, &exchange, facts));
     HC_TRY(pairs_.append_row(patch / kRows, exchange, *facts));
-    const std::uint64_t rows = ++found;
-    if (rows < telling || pairs_.byte_count() / rows * patch_count <= pair_storage_.most_bytes)
-      return Status();
-    is_too_large = true;
-    return Status::error(StatusCode::kOutOfMemory, "too many pairs");
+    return check_size();
   };
   const Status status = for_each_row(
       first, patch_count, find,
       [](std::uint64_t, const RowView&, const RowFacts*) { return Status(); }, true);
-  if (!is_too_large) {
-    if (!status.ok())
-      pairs_.flush_if_due();
-    HC_TRY(status);
-    return pairs_.transpose();
+  if (!status.ok()) {
+    pairs_.flush_if_due();
+    return status;
   }
-  shares_pairs_ = false;
-  total_ = total;
-  done_ = kept;
-  pair_rows_kept_ = 0;
-  if (pair_storage_.file != nullptr)
-    HC_TRY(pair_storage_.file->truncate(pair_storage_.begin));
-  return pairs_.init(0);
+  return pairs_.transpose();
 }
 
 Status RowRun::count_row() {

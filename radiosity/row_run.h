@@ -22,8 +22,8 @@ public:
               std::span<const double> light = {});
 
   /// Keeps the pairs that build_all finds in a file, and begins with those that are there.
-  /// @param storage  its most_bytes is what they may take: where they need more, each row is built
-  ///                 alone, which gives the same bits and takes longer
+  /// @param storage  its most_bytes is what they may take: build_all ends with kOutOfMemory where
+  ///                 they need more
   void keep_pairs(const RowStorage& storage) { pair_storage_ = storage; }
   /// How many rows found their pairs in the file.
   std::uint64_t pair_rows_kept() const { return pair_rows_kept_; }
@@ -113,7 +113,7 @@ private:
 
   LadderSetup setup_;
   FixedArray<LadderRow> builders_;
-  bool shares_pairs_ = false; ///< both rows of a pair say the same of it, and memory holds them
+  bool shares_pairs_ = false; ///< both rows of a pair say the same of it
   RowStorage pair_storage_;
   ExchangeTable pairs_; ///< once they were found
   std::uint64_t pair_rows_kept_ = 0;

@@ -43,7 +43,7 @@ Status Session::begin_files(const std::string& output) {
     HC_TRY(kept_.begin_or_read_hcf(line.form_factors));
     if (!kept_.files.rows_are_given)
       HC_TRY(probe.begin_file(line.form_factors, &name));
-  } else if (has_extension(line.output, ".hcf")) {
+  } else if (line.command == Command::kFormFactors && has_extension(line.output, ".hcf")) {
     HC_TRY(kept_.begin_hcf(output));
   } else {
     HC_TRY(kept_.begin(output));

@@ -20,11 +20,10 @@ constexpr std::uint64_t kMostWaiting = 512;
 } // namespace
 
 Status RowFile::failed(const char* what, int error) const noexcept {
-  return Status::error(StatusCode::kIo, std::string_view(path_), ": ", what, ": ",
-                       std::string_view(errno_text(error)),
-                       error == ENOSPC || error == EDQUOT || error == EFBIG
-                           ? "; make room and run again: what was computed is kept"
-                           : "");
+  return Status::error(
+      StatusCode::kIo, std::string_view(path_), ": ", what, ": ",
+      std::string_view(errno_text(error)),
+      error == ENOSPC || error == EDQUOT || error == EFBIG ? "; make room and run again" : "");
 }
 
 Status RowFile::in_use() const noexcept {
