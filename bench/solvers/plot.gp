@@ -11,12 +11,12 @@ colours = "#c03028 #2060b0 #409040"
 scenes = 'cornell corridor white_room'
 of(scene, name, x) = (strcol(1) eq scene && strcol(3) eq name) ? x : NaN
 do for [type in "svg png"] {
-  if (type eq "svg") { set terminal svg size 1200,640 noenhanced font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,640 noenhanced font "sans,9" }
+  if (type eq "svg") { set terminal svg size 1200,640 font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,640 font "sans,9" }
   set output folder . "/convergence." . type
   set multiplot layout 2,3 title "Stored matrix, one thread: error of B against the solution at 1e-13"
   do for [field in "4 5"] {
     do for [s = 1:3] {
-      set title word(scenes, s)
+      set title word(scenes, s) noenhanced
       set xlabel field eq "4" ? "sweeps, or shots per patch" : "seconds, set-up included"
       set ylabel "relative RMS error of B"
       if (s == 1) { set key bottom left } else { unset key }
@@ -26,12 +26,12 @@ do for [type in "svg png"] {
   }
   unset multiplot
   unset output
-  if (type eq "svg") { set terminal svg size 1200,360 noenhanced font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,360 noenhanced font "sans,9" }
+  if (type eq "svg") { set terminal svg size 1200,360 font "sans-serif,12" background "white" } else { set terminal pngcairo size 1200,360 font "sans,9" }
   set output folder . "/progressive." . type
   set logscale x
   set multiplot layout 1,3 title "From the mesh to light, rows included, one thread"
   do for [s = 1:3] {
-    set title word(scenes, s)
+    set title word(scenes, s) noenhanced
     set xlabel "seconds"
     set ylabel "relative RMS error of B"
     if (s == 1) { set key bottom left } else { unset key }
