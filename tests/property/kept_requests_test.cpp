@@ -271,7 +271,10 @@ TEST(PairsBeyondMemory, SayWhatToDoAndGoOnWithMore) {
       EXPECT_NE(status.message().find("--memory"), std::string_view::npos) << status.message();
       kept.files.most_bytes = RowStorage::kUnlimited;
       EXPECT_EQ(solve_kept(scene, options, &kept, threads), expected);
-      EXPECT_GT(kept.files.rows_resumed, 0u);
+      // Of several workers, the one with the first rows may not have finished them.
+      if (threads == 1) {
+        EXPECT_GT(kept.files.rows_resumed, 0u);
+      }
     }
 }
 
