@@ -1,5 +1,6 @@
 #include "radiosity/light_model.h"
 
+#include "radiosity/form_factor/matrix_file.h"
 #include "raster/hash.h"
 
 namespace hemicube::radiosity {
@@ -59,14 +60,7 @@ std::uint64_t hash_scene(const Scene& scene, const PatchSet& patches) noexcept {
   const std::uint32_t bands = scene.band_count();
   hash.add(bands);
   for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
-    const auto corners = patches.corners_of(i);
-    hash.add(static_cast<std::uint64_t>(corners.size()));
-    for (const std::uint32_t corner : corners) {
-      const Vec3& v = patches.vertices[corner];
-      hash.add(v.x);
-      hash.add(v.y);
-      hash.add(v.z);
-    }
+    hash_corners(patches, i, &hash);
     for (std::uint32_t b = 0; b < bands; ++b) {
       hash.add(scene.reflectance[std::size_t{patches.material[i]} * bands + b]);
       hash.add(scene.exitance[std::size_t{patches.material[i]} * bands + b]);

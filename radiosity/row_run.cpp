@@ -17,7 +17,6 @@ Status RowRun::init(RowGeometry* geometry, const RungSetting& setting, const Opt
   const raster::Kernels& kernels =
       options.kernels != nullptr ? *options.kernels : raster::best_kernels();
   HC_TRY(setup_.init(geometry, setting, kernels, options.hash_items));
-  shares_pairs_ = setup_.shares_pairs();
   return builders_.init(executor.worker_count());
 }
 

@@ -57,7 +57,7 @@ public:
   template <typename IsWanted, typename Take>
   Status build_all(std::uint32_t patch_count, IsWanted is_wanted, Take take,
                    std::uint64_t first = 0) {
-    if (shares_pairs_ && pairs_.empty() && first < patch_count)
+    if (setup_.shares_pairs() && pairs_.empty() && first < patch_count)
       HC_TRY(find_pairs(patch_count));
     if (pairs_.empty())
       return build(
@@ -113,7 +113,6 @@ private:
 
   LadderSetup setup_;
   FixedArray<LadderRow> builders_;
-  bool shares_pairs_ = false; ///< both rows of a pair say the same of it
   RowStorage pair_storage_;
   ExchangeTable pairs_; ///< once they were found
   std::uint64_t pair_rows_kept_ = 0;

@@ -31,16 +31,14 @@ std::uint64_t other_memory(std::uint64_t patches, std::uint32_t bands, std::uint
 Status plan_memory(std::uint64_t budget, std::uint64_t patches, std::uint32_t bands,
                    std::uint64_t threads, MemoryPlan* plan) {
   const std::uint64_t other = other_memory(patches, bands, threads), least = other + kLeastRows;
-  plan->budget = budget != 0 ? budget : machine_memory() / 4 * 3;
-  plan->other = other;
-  if (plan->budget < least)
+  const std::uint64_t most = budget != 0 ? budget : machine_memory() / 4 * 3;
+  if (most < least)
     return Status::error(StatusCode::kOutOfMemory, budget != 0 ? "--memory " : "of this machine, ",
-                         memory_text(static_cast<double>(plan->budget)),
-                         budget != 0 ? "" : " may be used", ": ", patches, " patches need about ",
+                         memory_text(static_cast<double>(most)), budget != 0 ? "" : " may be used",
+                         ": ", patches, " patches need about ",
                          memory_text(static_cast<double>(least)),
                          " besides what is kept in files: allow more, or use a coarser mesh");
-  plan->most_rows =
-      static_cast<std::uint64_t>(static_cast<double>(plan->budget - other) / kRowOverhead);
+  plan->most_rows = static_cast<std::uint64_t>(static_cast<double>(most - other) / kRowOverhead);
   plan->row_range = std::min(RowStorage::kRangeBytes, plan->most_rows / 2);
   return {};
 }

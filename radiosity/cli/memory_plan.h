@@ -6,9 +6,7 @@ namespace hemicube::radiosity::cli {
 
 /// How the memory of a run is shared out.
 struct MemoryPlan {
-  std::uint64_t budget = 0;    ///< of the whole process
-  std::uint64_t other = 0;     ///< what all but rows of form factors takes, about
-  std::uint64_t most_rows = 0; ///< what these may take; beyond it they stay in a file
+  std::uint64_t most_rows = 0; ///< of form factors in memory; beyond it they stay in a file
   std::uint64_t row_range = 0; ///< of rows read at once from there
 };
 

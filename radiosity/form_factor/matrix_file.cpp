@@ -1,7 +1,5 @@
 #include "radiosity/form_factor/matrix_file.h"
 
-#include "raster/hash.h"
-
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -60,18 +58,21 @@ RungSetting MatrixFileHead::setting() const noexcept {
   return {static_cast<Rung>(rung), resolution, target};
 }
 
+void hash_corners(const PatchSet& patches, std::uint32_t patch, Hash* hash) noexcept {
+  const auto corners = patches.corners_of(patch);
+  hash->add(static_cast<std::uint64_t>(corners.size()));
+  for (const std::uint32_t corner : corners) {
+    const Vec3& v = patches.vertices[corner];
+    hash->add(v.x);
+    hash->add(v.y);
+    hash->add(v.z);
+  }
+}
+
 std::uint64_t hash_geometry(const PatchSet& patches) noexcept {
   Hash hash(patches.patch_count());
-  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
-    const auto corners = patches.corners_of(i);
-    hash.add(static_cast<std::uint64_t>(corners.size()));
-    for (const std::uint32_t corner : corners) {
-      const Vec3& v = patches.vertices[corner];
-      hash.add(v.x);
-      hash.add(v.y);
-      hash.add(v.z);
-    }
-  }
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i)
+    hash_corners(patches, i, &hash);
   return hash.value();
 }
 

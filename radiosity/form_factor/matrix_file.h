@@ -3,6 +3,7 @@
 #include "radiosity/form_factor/matrix.h"
 #include "radiosity/form_factor/rung.h"
 #include "radiosity/mesh/patch_set.h"
+#include "raster/hash.h"
 
 namespace hemicube::radiosity {
 
@@ -36,6 +37,9 @@ struct MatrixFileHead {
   RungSetting setting() const noexcept;
 };
 static_assert(sizeof(MatrixFileHead) == 144);
+
+/// Adds the corners of a patch to a hash.
+void hash_corners(const PatchSet& patches, std::uint32_t patch, Hash* hash) noexcept;
 
 /// Hash of the mesh alone: positions and order of all corners, no materials.
 std::uint64_t hash_geometry(const PatchSet& patches) noexcept;
