@@ -1,6 +1,7 @@
 #include "radiosity/scene/json_reader.h"
 
 #include "radiosity/scene/json_fields.h"
+#include "radiosity/scene/obj_reader.h"
 #include "radiosity/scene/placement.h"
 #include "radiosity/scene/scene_builder.h"
 
@@ -36,7 +37,7 @@ private:
   Status check_camera(const JsonValue& value) const;
   Status mesh(const JsonValue& value, const std::string& what);
   Status mesh_materials(const JsonValue& value, const std::string& what,
-                        const std::string& obj_path, const ObjMesh& mesh,
+                        const std::string& obj_path, const FileMesh& mesh,
                         std::vector<std::uint32_t>* numbers);
   Status placement(const JsonValue* transform, const std::string& what, Placement* placement) const;
 
@@ -254,7 +255,7 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
   if (!std::filesystem::exists(obj_path, ignored))
     return fields_.error(*file, what, ": file ", in_quotes(name), " does not exist (looked for ",
                          obj_path, ")");
-  ObjMesh mesh;
+  FileMesh mesh;
   HC_TRY(read_obj(obj_path, &mesh, &report_));
   std::vector<std::uint32_t> numbers;
   HC_TRY(mesh_materials(value, what, obj_path, mesh, &numbers));
@@ -266,7 +267,7 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
 
 /// Finds what the materials of a mesh are, and their numbers in the scene.
 Status SceneFile::mesh_materials(const JsonValue& value, const std::string& what,
-                                 const std::string& obj_path, const ObjMesh& mesh,
+                                 const std::string& obj_path, const FileMesh& mesh,
                                  std::vector<std::uint32_t>* numbers) {
   if (const JsonValue* material = value.find("material")) {
     std::string name;
@@ -283,7 +284,7 @@ Status SceneFile::mesh_materials(const JsonValue& value, const std::string& what
   count_unnamed_faces(mesh, &report_);
   MtlLibrary library;
   bool library_is_read = false;
-  for (const ObjMesh::Name& use : mesh.materials) {
+  for (const FileMesh::Name& use : mesh.materials) {
     const auto entry = materials_.find(use.text);
     SceneMaterial material;
     if (entry != materials_.end()) {

@@ -143,7 +143,7 @@ void MtlParser::count_skipped(ReadReport* report) const {
 }
 
 /// The libraries one mtllib statement names, as paths that exist.
-Status find_libraries(const std::string& obj_path, const ObjMesh::Name& statement,
+Status find_libraries(const std::string& obj_path, const FileMesh::Name& statement,
                       std::vector<std::string>* paths) {
   const auto resolved = [&](std::string_view name) {
     return (std::filesystem::path(obj_path).parent_path() / name).lexically_normal().string();
@@ -182,11 +182,11 @@ Status read_mtl(const std::string& path, MtlLibrary* library, ReadReport* report
   });
 }
 
-Status read_libraries(const std::string& obj_path, const ObjMesh& mesh, MtlLibrary* library,
+Status read_libraries(const std::string& obj_path, const FileMesh& mesh, MtlLibrary* library,
                       ReadReport* report) {
   return without_exceptions(obj_path, [&]() -> Status {
     std::set<std::string> read; // a library may be named more than once
-    for (const ObjMesh::Name& statement : mesh.libraries) {
+    for (const FileMesh::Name& statement : mesh.libraries) {
       std::vector<std::string> paths;
       HC_TRY(find_libraries(obj_path, statement, &paths));
       for (const std::string& path : paths)

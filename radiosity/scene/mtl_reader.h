@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiosity/scene/obj_reader.h"
+#include "radiosity/scene/file_mesh.h"
 #include "radiosity/scene/read_report.h"
 
 #include <array>
@@ -32,7 +32,7 @@ Status read_mtl(const std::string& path, MtlLibrary* library, ReadReport* report
 /// Reads the libraries that the mtllib statements of an OBJ file name, relative to its folder. What
 /// follows mtllib is one file name, spaces included, if there is such a file, else several.
 /// @return also kBadScene `OBJ:LINE: ...` for a library that does not exist
-Status read_libraries(const std::string& obj_path, const ObjMesh& mesh, MtlLibrary* library,
+Status read_libraries(const std::string& obj_path, const FileMesh& mesh, MtlLibrary* library,
                       ReadReport* report);
 
 } // namespace hemicube::radiosity

@@ -13,7 +13,7 @@ namespace {
 /// them.
 class NameInForce {
 public:
-  explicit NameInForce(std::vector<ObjMesh::Name>* used) : used_(used) {}
+  explicit NameInForce(std::vector<FileMesh::Name>* used) : used_(used) {}
 
   void set(std::string text, std::uint64_t line) {
     name_ = {std::move(text), line};
@@ -34,8 +34,8 @@ public:
   }
 
 private:
-  std::vector<ObjMesh::Name>* used_;
-  ObjMesh::Name name_;
+  std::vector<FileMesh::Name>* used_;
+  FileMesh::Name name_;
   bool numbered_ = false;
   std::uint32_t number_ = 0;
   std::unordered_map<std::string, std::uint32_t> numbers_; // only looked up, never iterated over
@@ -43,7 +43,7 @@ private:
 
 class ObjParser {
 public:
-  ObjParser(std::string_view path, const ObjLimits& limits, ObjMesh* mesh)
+  ObjParser(std::string_view path, const MeshLimits& limits, FileMesh* mesh)
       : path_(path), limits_(limits), mesh_(*mesh) {}
 
   Status parse(std::string_view text);
@@ -55,7 +55,7 @@ private:
   Status face(std::string_view rest);
   Status corner(std::string_view word);
   Status vertex_index(std::string_view word, std::uint32_t* index);
-  Status name(std::string_view keyword, std::string_view rest, ObjMesh::Name* name);
+  Status name(std::string_view keyword, std::string_view rest, FileMesh::Name* name);
   Status check_forward_references() const;
 
   template <typename... Parts> Status error(const Parts&... parts) const {
@@ -63,8 +63,8 @@ private:
   }
 
   std::string_view path_;
-  const ObjLimits limits_;
-  ObjMesh& mesh_;
+  const MeshLimits limits_;
+  FileMesh& mesh_;
   std::uint64_t line_ = 0;
   NameInForce material_{&mesh_.materials};
   NameInForce group_{&mesh_.groups};
@@ -110,7 +110,7 @@ Status ObjParser::statement(std::string_view keyword, std::string_view rest) {
     return {};
   }
   if (keyword == "usemtl") {
-    ObjMesh::Name material;
+    FileMesh::Name material;
     HC_TRY(name(keyword, rest, &material));
     material_.set(std::move(material.text), line_);
     return {};
@@ -193,7 +193,7 @@ Status ObjParser::vertex_index(std::string_view word, std::uint32_t* index) {
   return {};
 }
 
-Status ObjParser::name(std::string_view keyword, std::string_view rest, ObjMesh::Name* name) {
+Status ObjParser::name(std::string_view keyword, std::string_view rest, FileMesh::Name* name) {
   *name = {std::string(rest_as_name(rest)), line_};
   return name->text.empty() ? error(keyword, " without a name") : Status();
 }
@@ -227,8 +227,8 @@ void ObjParser::count_skipped(ReadReport* report) const {
 
 } // namespace
 
-Status read_obj(const std::string& path, ObjMesh* mesh, ReadReport* report,
-                const ObjLimits& limits) {
+Status read_obj(const std::string& path, FileMesh* mesh, ReadReport* report,
+                const MeshLimits& limits) {
   return without_exceptions(path, [&]() -> Status {
     *mesh = {};
     std::string text;

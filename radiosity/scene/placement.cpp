@@ -32,7 +32,7 @@ double relative_determinant(const Placement& placement) {
   return std::abs(determinant) >= 1e-12 ? determinant : 0; // NaN gives 0 too
 }
 
-bool place_mesh(const Placement& placement, ObjMesh* mesh) {
+bool place_mesh(const Placement& placement, FileMesh* mesh) {
   for (Vec3& vertex : mesh->vertices) {
     if (placement.has_transform)
       vertex = transformed(placement.rows, vertex);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "radiosity/scene/obj_reader.h"
+#include "radiosity/scene/file_mesh.h"
 
 #include <array>
 
@@ -24,6 +24,6 @@ double relative_determinant(const Placement& placement);
 /// Moves the vertices. A mirroring placement also reverses the corners of each face, from the
 /// second on, so that fronts stay fronts.
 /// @return false if a coordinate is no longer finite
-bool place_mesh(const Placement& placement, ObjMesh* mesh);
+bool place_mesh(const Placement& placement, FileMesh* mesh);
 
 } // namespace hemicube::radiosity

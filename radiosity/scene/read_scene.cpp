@@ -1,6 +1,7 @@
 #include "radiosity/scene/read_scene.h"
 
 #include "radiosity/scene/json_reader.h"
+#include "radiosity/scene/obj_reader.h"
 #include "radiosity/scene/scene_builder.h"
 #include "radiosity/scene/text_cursor.h"
 
@@ -12,7 +13,7 @@ Status read_obj_scene(const std::string& path, Scene* scene, ReadReport* report)
     HC_TRY(scene->bands.add(band));
   HC_TRY(scene->space_exitance.resize(scene->band_count()));
 
-  ObjMesh mesh;
+  FileMesh mesh;
   HC_TRY(read_obj(path, &mesh, report));
   count_unnamed_faces(mesh, report);
   MtlLibrary library;
@@ -20,7 +21,7 @@ Status read_obj_scene(const std::string& path, Scene* scene, ReadReport* report)
 
   SceneBuilder builder(scene);
   std::vector<std::uint32_t> numbers;
-  for (const ObjMesh::Name& use : mesh.materials) {
+  for (const FileMesh::Name& use : mesh.materials) {
     SceneMaterial material = material_of_unnamed_faces(scene->band_count());
     if (!use.text.empty())
       HC_TRY(material_from_library(path, use, library, &material));

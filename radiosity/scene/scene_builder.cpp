@@ -11,13 +11,13 @@ SceneMaterial material_of_unnamed_faces(std::uint32_t band_count) {
   return material;
 }
 
-void count_unnamed_faces(const ObjMesh& mesh, ReadReport* report) {
+void count_unnamed_faces(const FileMesh& mesh, ReadReport* report) {
   for (const std::uint32_t material : mesh.face_material)
     if (mesh.materials[material].text.empty())
       ++report->faces_without_material;
 }
 
-Status material_from_library(const std::string& obj_path, const ObjMesh::Name& use,
+Status material_from_library(const std::string& obj_path, const FileMesh::Name& use,
                              const MtlLibrary& library, SceneMaterial* material) {
   const auto entry = library.find(use.text);
   if (entry == library.end())
@@ -53,11 +53,11 @@ Status SceneBuilder::add_material(const SceneMaterial& material, std::uint32_t* 
   return scene_.two_sided.push_back(material.two_sided ? 1 : 0);
 }
 
-Status SceneBuilder::add_mesh(ObjMesh* mesh, std::span<const std::uint32_t> materials,
+Status SceneBuilder::add_mesh(FileMesh* mesh, std::span<const std::uint32_t> materials,
                               double max_edge, std::string_view place) {
   const std::size_t face_count = scene_.face_count() + mesh->face_count();
   const std::size_t vertex_count = scene_.vertices.size() + mesh->vertices.size();
-  const ObjLimits limits;
+  const MeshLimits limits;
   if (face_count > limits.faces || vertex_count > limits.vertices)
     return Status::error(StatusCode::kBadScene, place,
                          ": the scene is too large with this mesh: ", face_count, " faces (limit ",
@@ -68,7 +68,7 @@ Status SceneBuilder::add_mesh(ObjMesh* mesh, std::span<const std::uint32_t> mate
     material = materials[material];
 
   std::vector<std::uint32_t> groups;
-  for (const ObjMesh::Name& group : mesh->groups) {
+  for (const FileMesh::Name& group : mesh->groups) {
     const auto [entry, is_new] = groups_.try_emplace(group.text, scene_.groups.size());
     if (is_new)
       HC_TRY(scene_.groups.add(group.text));
@@ -85,7 +85,7 @@ Status SceneBuilder::add_mesh(ObjMesh* mesh, std::span<const std::uint32_t> mate
 }
 
 /// The first mesh is moved; the others are appended, their numbers shifted.
-Status SceneBuilder::add_geometry(ObjMesh* mesh) {
+Status SceneBuilder::add_geometry(FileMesh* mesh) {
   if (scene_.corner_offsets.empty()) {
     scene_.vertices.swap(mesh->vertices);
     scene_.corner_offsets.swap(mesh->corner_offsets);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "radiosity/scene/file_mesh.h"
 #include "radiosity/scene/mtl_reader.h"
-#include "radiosity/scene/obj_reader.h"
 #include "radiosity/scene/scene.h"
 
 #include <span>
@@ -25,13 +25,13 @@ struct SceneMaterial {
 SceneMaterial material_of_unnamed_faces(std::uint32_t band_count);
 
 /// Counts the faces that no usemtl covers.
-void count_unnamed_faces(const ObjMesh& mesh, ReadReport* report);
+void count_unnamed_faces(const FileMesh& mesh, ReadReport* report);
 
 /// Takes a material that a face uses from the libraries of its OBJ file.
 /// @param use  the name and the line of its usemtl
 /// @return kBadScene at that line if no library defines it; at its newmtl if that says neither Kd
 /// nor Ke
-Status material_from_library(const std::string& obj_path, const ObjMesh::Name& use,
+Status material_from_library(const std::string& obj_path, const FileMesh::Name& use,
                              const MtlLibrary& library, SceneMaterial* material);
 
 /// Puts meshes together into one Scene.
@@ -49,11 +49,11 @@ public:
   /// @param materials  the scene's number of each of mesh->materials
   /// @param max_edge   for all its faces, metres; 0 = not subdivided
   /// @param place      FILE:LINE for the message when the scene gets too large (kBadScene)
-  Status add_mesh(ObjMesh* mesh, std::span<const std::uint32_t> materials, double max_edge,
+  Status add_mesh(FileMesh* mesh, std::span<const std::uint32_t> materials, double max_edge,
                   std::string_view place);
 
 private:
-  Status add_geometry(ObjMesh* mesh);
+  Status add_geometry(FileMesh* mesh);
 
   Scene& scene_;
   struct Definition {

@@ -213,14 +213,14 @@ TEST_F(ObjReader, ExtensionInAnyCaseAndSceneKeptOnError) {
 
 TEST_F(ObjReader, RefusesMoreThanTheLimits) {
   write("a.obj", kTriangle + "f 1 2 3\nf 1 2 3\n");
-  ObjMesh mesh;
+  FileMesh mesh;
   EXPECT_TRUE(read_obj(path("a.obj"), &mesh, &report_, {2, 3}).ok());
   EXPECT_EQ(read_obj(path("a.obj"), &mesh, &report_, {1, 3}).message(),
             path("a.obj") + ":5: more than 1 faces: split the scene into several runs");
   EXPECT_EQ(read_obj(path("a.obj"), &mesh, &report_, {2, 2}).message(),
             path("a.obj") + ":3: more than 2 vertices: split the scene into several runs");
-  EXPECT_EQ(ObjLimits().faces, (std::uint64_t{1} << 31) - 2);
-  EXPECT_LT(ObjLimits().vertices, std::uint64_t{1} << 32);
+  EXPECT_EQ(MeshLimits().faces, (std::uint64_t{1} << 31) - 2);
+  EXPECT_LT(MeshLimits().vertices, std::uint64_t{1} << 32);
 }
 
 } // namespace
