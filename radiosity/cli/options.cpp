@@ -45,7 +45,8 @@ CLI::Option* add_path(CLI::App* app, const std::string& names, const std::string
 }
 
 void add_scene(CLI::App* app, CommandLine* line) {
-  add_path(app, "SCENE", "", "the scene, an .obj or .json file", &line->input)->required();
+  add_path(app, "SCENE", "", "the scene: .json, .obj, .ply, .off or .stl", &line->input)
+      ->required();
 }
 
 /// What the program accepts, each option bound to its member of the command line.

@@ -1,7 +1,7 @@
 #include "radiosity/scene/json_reader.h"
 
 #include "radiosity/scene/json_fields.h"
-#include "radiosity/scene/obj_reader.h"
+#include "radiosity/scene/mesh_reader.h"
 #include "radiosity/scene/placement.h"
 #include "radiosity/scene/scene_builder.h"
 
@@ -37,7 +37,7 @@ private:
   Status check_camera(const JsonValue& value) const;
   Status mesh(const JsonValue& value, const std::string& what);
   Status mesh_materials(const JsonValue& value, const std::string& what,
-                        const std::string& obj_path, const FileMesh& mesh,
+                        const std::string& mesh_path, const FileMesh& mesh,
                         std::vector<std::uint32_t>* numbers);
   Status placement(const JsonValue* transform, const std::string& what, Placement* placement) const;
 
@@ -241,8 +241,9 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
     return fields_.error(value, what, " lacks the key 'file'");
   std::string name;
   HC_TRY(fields_.name(*file, what + ": file", &name));
-  if (!has_extension(name, ".obj"))
-    return fields_.error(*file, what, ": file ", in_quotes(name), " is not an OBJ file (.obj)");
+  if (!is_mesh_file(name))
+    return fields_.error(*file, what, ": file ", in_quotes(name), " is not named ",
+                         kMeshExtensions);
   Placement place;
   HC_TRY(placement(value.find("transform"), what, &place));
   double max_edge = max_edge_;
@@ -250,15 +251,15 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
     HC_TRY(fields_.positive_number(*edge, what + ": max_edge", &max_edge));
 
   const auto folder = std::filesystem::path(fields_.path()).parent_path();
-  const std::string obj_path = (folder / name).lexically_normal().string();
+  const std::string mesh_path = (folder / name).lexically_normal().string();
   std::error_code ignored; // what cannot be looked at does not exist for us
-  if (!std::filesystem::exists(obj_path, ignored))
+  if (!std::filesystem::exists(mesh_path, ignored))
     return fields_.error(*file, what, ": file ", in_quotes(name), " does not exist (looked for ",
-                         obj_path, ")");
+                         mesh_path, ")");
   FileMesh mesh;
-  HC_TRY(read_obj(obj_path, &mesh, &report_));
+  HC_TRY(read_mesh(mesh_path, &mesh, &report_));
   std::vector<std::uint32_t> numbers;
-  HC_TRY(mesh_materials(value, what, obj_path, mesh, &numbers));
+  HC_TRY(mesh_materials(value, what, mesh_path, mesh, &numbers));
   if (!place_mesh(place, &mesh))
     return fields_.error(value, what, ": transform and units make a coordinate too large");
   return builder_.add_mesh(&mesh, numbers, max_edge,
@@ -267,7 +268,7 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
 
 /// Finds what the materials of a mesh are, and their numbers in the scene.
 Status SceneFile::mesh_materials(const JsonValue& value, const std::string& what,
-                                 const std::string& obj_path, const FileMesh& mesh,
+                                 const std::string& mesh_path, const FileMesh& mesh,
                                  std::vector<std::uint32_t>* numbers) {
   if (const JsonValue* material = value.find("material")) {
     std::string name;
@@ -292,14 +293,14 @@ Status SceneFile::mesh_materials(const JsonValue& value, const std::string& what
     } else if (use.text.empty()) {
       material = material_of_unnamed_faces(scene_.band_count());
     } else if (!bands_are_rgb_) {
-      return error_at(obj_path, use.line, "material ", in_quotes(use.text),
+      return error_at(mesh_path, use.line, "material ", in_quotes(use.text),
                       " is used by a face, but is not among the materials of ", fields_.path(),
                       " (material libraries are read for the bands r, g, b only)");
     } else {
       if (!library_is_read)
-        HC_TRY(read_libraries(obj_path, mesh, &library, &report_));
+        HC_TRY(read_libraries(mesh_path, mesh, &library, &report_));
       library_is_read = true;
-      HC_TRY(material_from_library(obj_path, use, library, &material));
+      HC_TRY(material_from_library(mesh_path, use, library, &material));
     }
     HC_TRY(builder_.add_material(material, &numbers->emplace_back()));
   }

@@ -7,7 +7,7 @@
 
 namespace hemicube::radiosity {
 
-/// Reads a JSON scene file (schema: scenes/README.md) and the OBJ and MTL files it names.
+/// Reads a JSON scene file (schema: scenes/README.md) and the mesh and MTL files it names.
 /// @param scene  empty; on an error it holds whatever was read so far
 /// @return kBadScene `FILE:LINE: ...`, FILE being the one of the files that says something wrong;
 /// kIo;

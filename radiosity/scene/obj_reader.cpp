@@ -129,11 +129,7 @@ Status ObjParser::vertex(std::string_view rest) {
     const std::string_view word = next_word(&rest);
     if (word.empty())
       return error("a vertex needs 3 coordinates, this one has ", k);
-    const NumberForm form = parse_number(word, &position[k]);
-    if (form == NumberForm::kNotANumber)
-      return error("vertex coordinate ", in_quotes(word), " is not a number");
-    if (form == NumberForm::kNotFinite)
-      return error("vertex coordinate ", in_quotes(word), " is not a finite number");
+    HC_TRY(parse_coordinate(path_, line_, word, &position[k]));
   }
   if (!next_word(&rest).empty())
     ++extra_coordinates_;

@@ -9,12 +9,12 @@ void ReadReport::add_file(const std::string& path) {
     files.push_back(path);
 }
 
-void KeywordCounts::count(std::string_view keyword) {
+void KeywordCounts::count(std::string_view keyword, std::uint64_t times) {
   const auto entry = counts_.find(keyword);
   if (entry == counts_.end())
-    counts_.emplace(keyword, 1);
+    counts_.emplace(keyword, times);
   else
-    ++entry->second;
+    entry->second += times;
 }
 
 void KeywordCounts::add_to(ReadReport* report,

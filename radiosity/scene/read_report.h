@@ -20,7 +20,7 @@ struct ReadReport {
 /// Counts statements that are read over, by keyword.
 class KeywordCounts {
 public:
-  void count(std::string_view keyword);
+  void count(std::string_view keyword, std::uint64_t times = 1);
 
   /// Adds each count to report->skipped under "MEANING (KEYWORD)", in printable ASCII.
   void add_to(ReadReport* report, std::string_view (*meaning)(std::string_view keyword)) const;

@@ -1,20 +1,20 @@
 #include "radiosity/scene/read_scene.h"
 
 #include "radiosity/scene/json_reader.h"
-#include "radiosity/scene/obj_reader.h"
+#include "radiosity/scene/mesh_reader.h"
 #include "radiosity/scene/scene_builder.h"
 #include "radiosity/scene/text_cursor.h"
 
 namespace hemicube::radiosity {
 namespace {
 
-Status read_obj_scene(const std::string& path, Scene* scene, ReadReport* report) {
+Status read_mesh_scene(const std::string& path, Scene* scene, ReadReport* report) {
   for (const char* band : {"r", "g", "b"})
     HC_TRY(scene->bands.add(band));
   HC_TRY(scene->space_exitance.resize(scene->band_count()));
 
   FileMesh mesh;
-  HC_TRY(read_obj(path, &mesh, report));
+  HC_TRY(read_mesh(path, &mesh, report));
   count_unnamed_faces(mesh, report);
   MtlLibrary library;
   HC_TRY(read_libraries(path, mesh, &library, report));
@@ -36,13 +36,13 @@ Status read_scene(const std::string& path, Scene* scene, ReadReport* report) {
   return without_exceptions(path, [&]() -> Status {
     Scene fresh;
     *report = {};
-    if (has_extension(path, ".obj"))
-      HC_TRY(read_obj_scene(path, &fresh, report));
+    if (is_mesh_file(path))
+      HC_TRY(read_mesh_scene(path, &fresh, report));
     else if (has_extension(path, ".json"))
       HC_TRY(read_json_scene(path, &fresh, report));
     else
       return Status::error(StatusCode::kBadScene, path,
-                           ": a scene is read from a file named .obj or .json");
+                           ": a scene is read from a file named .json, ", kMeshExtensions);
     *scene = std::move(fresh);
     return {};
   });

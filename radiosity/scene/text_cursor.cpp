@@ -142,6 +142,15 @@ bool LineReader::next() {
   return true;
 }
 
+bool LineReader::next_with_words() {
+  while (next()) {
+    std::string_view rest = line_;
+    if (!next_word(&rest).empty())
+      return true;
+  }
+  return false;
+}
+
 /// The line at the front of the rest, which may be empty.
 std::string_view LineReader::physical_line() {
   std::size_t end = 0;
@@ -200,6 +209,15 @@ NumberForm parse_number(std::string_view word, double* value) {
     return NumberForm::kNotFinite;
   *value = parsed;
   return NumberForm::kFinite;
+}
+
+Status parse_coordinate(std::string_view path, std::uint64_t line, std::string_view word,
+                        double* value) {
+  const NumberForm form = parse_number(word, value);
+  if (form == NumberForm::kFinite)
+    return {};
+  return error_at(path, line, "vertex coordinate ", in_quotes(word),
+                  form == NumberForm::kNotANumber ? " is not a number" : " is not a finite number");
 }
 
 bool parse_integer(std::string_view word, std::int64_t* value) {

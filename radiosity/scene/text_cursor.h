@@ -10,7 +10,7 @@
 
 namespace hemicube::radiosity {
 
-// What the readers of line-based text (OBJ, MTL) and of JSON share.
+// What the readers of line-based text (OBJ, MTL, PLY, OFF, STL) and of JSON share.
 
 /// Reads a whole file as it is, byte for byte.
 /// @return kBadScene if it is missing, unreadable or not a regular file (a directory, a pipe, a
@@ -55,6 +55,9 @@ public:
   /// Moves to the next line; false at the end.
   bool next();
 
+  /// Moves to the next line that holds a word: neither blank nor a comment.
+  bool next_with_words();
+
   /// The current line without its end; valid until next().
   std::string_view line() const { return line_; }
   /// Its number, from 1; of a joined line, that of its first part.
@@ -82,6 +85,11 @@ enum class NumberForm { kFinite, kNotFinite, kNotANumber };
 /// Reads a whole word as the nearest double, independent of the locale; a leading '+' is allowed,
 /// and what is too small for a double is 0. `value` is filled for kFinite only.
 NumberForm parse_number(std::string_view word, double* value);
+
+/// Reads a whole word as a coordinate of a vertex.
+/// @return kBadScene `PATH:LINE: ...` for what is not a finite number
+Status parse_coordinate(std::string_view path, std::uint64_t line, std::string_view word,
+                        double* value);
 
 /// Reads a whole word as a decimal integer; false if it is none or does not fit.
 bool parse_integer(std::string_view word, std::int64_t* value);

@@ -291,8 +291,38 @@ TEST_F(JsonReader, RefusesBadHeadersAndMeshes) {
     return head + "\"version\": 1, \"meshes\": [\n{\"file\": \"" + file + "\"}]}";
   };
   expect_error(with_file("none.obj"), 3, "mesh 0: file 'none.obj' does not exist (looked for ");
-  expect_error(with_file("a.mtl"), 3, "mesh 0: file 'a.mtl' is not an OBJ file (.obj)");
+  expect_error(with_file("a.mtl"), 3, "mesh 0: file 'a.mtl' is not named .obj, .ply, .off or .stl");
   expect_error(with_file("a.obj\\u0000.obj"), 3, "must not hold control characters");
+}
+
+// Catches: a format that scenes are read from, but scene files do not take as a mesh.
+TEST_F(JsonReader, MeshesOfOtherFormats) {
+  const std::string off = "OFF\n3 1 0\n0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                          "property float y\nproperty float z\nelement face 1\n"
+                          "property list uchar int vertex_indices\nend_header\n"
+                          "0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n";
+  const std::string stl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"
+                          "vertex 0 3 0\nendloop\nendfacet\nendsolid s\n";
+  for (const auto& [name, bytes] : {std::pair("m.ply", ply), {"m.off", off}, {"m.STL", stl}}) {
+    write(name, bytes);
+    expect_scene("{\"format\": \"hemicube-scene\", \"version\": 1, " + kRed +
+                 ", \"units\": \"cm\", \"meshes\": [{\"file\": \"" + name +
+                 "\", \"max_edge\": 0.5, \"transform\": [-1,0,0,0, 0,1,0,0, 0,0,1,7, 0,0,0,1], "
+                 "\"material\": \"red\"}, {\"file\": \"" +
+                 name + "\"}]}");
+    EXPECT_EQ(names_of(scene_.materials), (std::vector<std::string>{"red", ""}));
+    EXPECT_EQ(values_of(scene_.face_material), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(values_of(scene_.face_max_edge), (std::vector<double>{0.5, 0}));
+    EXPECT_EQ(values_of(scene_.corners), (std::vector<std::uint32_t>{0, 2, 1, 3, 4, 5}));
+    EXPECT_EQ(scene_.vertices[1], Vec3(-0.02, 0, 0.07));
+    EXPECT_EQ(scene_.vertices[4], Vec3(0.02, 0, 0));
+    EXPECT_EQ(report_.faces_without_material, 1u);
+  }
+  write("m.off", off.substr(0, 30));
+  write("s.json", "{\"format\": \"hemicube-scene\", \"version\": 1, \"meshes\": "
+                  "[{\"file\": \"m.off\"}]}");
+  expect_refused("s.json", "m.off:6: ");
 }
 
 TEST_F(JsonReader, ErrorsInAMeshNameTheObj) {
