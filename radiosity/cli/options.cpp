@@ -45,7 +45,8 @@ CLI::Option* add_path(CLI::App* app, const std::string& names, const std::string
 }
 
 void add_scene(CLI::App* app, CommandLine* line) {
-  add_path(app, "SCENE", "", "the scene: .json, .obj, .ply, .off or .stl", &line->input)
+  add_path(app, "SCENE", "", "the scene: .json, .gltf, .glb, .obj, .ply, .off or .stl",
+           &line->input)
       ->required();
 }
 

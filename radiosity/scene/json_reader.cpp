@@ -1,5 +1,7 @@
 #include "radiosity/scene/json_reader.h"
 
+#include "radiosity/scene/camera_problem.h"
+#include "radiosity/scene/gltf_reader.h"
 #include "radiosity/scene/json_fields.h"
 #include "radiosity/scene/mesh_reader.h"
 #include "radiosity/scene/placement.h"
@@ -34,7 +36,6 @@ private:
   Status materials(const JsonValue& value);
   Status material(const std::string& name, const JsonValue& value);
   Status camera(const JsonValue& value);
-  Status check_camera(const JsonValue& value) const;
   Status mesh(const JsonValue& value, const std::string& what);
   Status mesh_materials(const JsonValue& value, const std::string& what,
                         const std::string& mesh_path, const FileMesh& mesh,
@@ -215,23 +216,8 @@ Status SceneFile::camera(const JsonValue& value) {
   if (const JsonValue* height = value.find("height"))
     HC_TRY(fields_.pixels(*height, "camera: height", &camera.height));
   scene_.has_camera = true;
-  return check_camera(value);
-}
-
-Status SceneFile::check_camera(const JsonValue& value) const {
-  const Vec3 view = scene_.camera.target - scene_.camera.position;
-  const Vec3 up = scene_.camera.up;
-  const double distance = largest_component(view);
-  if (!std::isfinite(distance))
-    return fields_.error(value, "camera: position and target are too far apart");
-  if (distance == 0)
-    return fields_.error(value, "camera: target must not be the position");
-  if (largest_component(up) == 0)
-    return fields_.error(value, "camera: up must not be 0 0 0");
-  const Vec3 across = glm::cross(unit(view / distance), unit(up / largest_component(up)));
-  if (!(glm::length(across) >= 2 * Camera::kMinUpSine)) // twice: the frame is computed elsewhere
-    return fields_.error(value, "camera: up must not point along the line of sight");
-  return {};
+  const std::string_view problem = camera_problem(camera);
+  return problem.empty() ? Status() : fields_.error(value, "camera: ", problem);
 }
 
 Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
@@ -241,6 +227,9 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
     return fields_.error(value, what, " lacks the key 'file'");
   std::string name;
   HC_TRY(fields_.name(*file, what + ": file", &name));
+  if (is_gltf_file(name))
+    return fields_.error(*file, what, ": file ", in_quotes(name),
+                         " is a scene of its own, with materials and transforms: solve it alone");
   if (!is_mesh_file(name))
     return fields_.error(*file, what, ": file ", in_quotes(name), " is not named ",
                          kMeshExtensions);

@@ -32,14 +32,20 @@ double relative_determinant(const Placement& placement) {
   return std::abs(determinant) >= 1e-12 ? determinant : 0; // NaN gives 0 too
 }
 
-bool place_mesh(const Placement& placement, FileMesh* mesh) {
-  for (Vec3& vertex : mesh->vertices) {
+bool place_vertices(const Placement& placement, std::span<Vec3> vertices) {
+  for (Vec3& vertex : vertices) {
     if (placement.has_transform)
       vertex = transformed(placement.rows, vertex);
     vertex *= placement.metres_per_unit;
     if (!std::isfinite(vertex.x) || !std::isfinite(vertex.y) || !std::isfinite(vertex.z))
       return false;
   }
+  return true;
+}
+
+bool place_mesh(const Placement& placement, FileMesh* mesh) {
+  if (!place_vertices(placement, mesh->vertices.span()))
+    return false;
   if (placement.has_transform && relative_determinant(placement) < 0)
     for (std::size_t face = 0; face < mesh->face_count(); ++face)
       std::reverse(mesh->corners.data() + mesh->corner_offsets[face] + 1,

@@ -3,6 +3,7 @@
 #include "radiosity/scene/file_mesh.h"
 
 #include <array>
+#include <span>
 
 namespace hemicube::radiosity {
 
@@ -20,6 +21,10 @@ double largest_component(const Vec3& v);
 /// the map flattens the mesh up to rounding (below 1e-12) or is not finite. Its sign tells a
 /// mirroring.
 double relative_determinant(const Placement& placement);
+
+/// Moves vertices.
+/// @return false if a coordinate is no longer finite
+bool place_vertices(const Placement& placement, std::span<Vec3> vertices);
 
 /// Moves the vertices. A mirroring placement also reverses the corners of each face, from the
 /// second on, so that fronts stay fronts.

@@ -1,5 +1,6 @@
 #include "radiosity/scene/read_scene.h"
 
+#include "radiosity/scene/gltf_reader.h"
 #include "radiosity/scene/json_reader.h"
 #include "radiosity/scene/mesh_reader.h"
 #include "radiosity/scene/scene_builder.h"
@@ -38,11 +39,14 @@ Status read_scene(const std::string& path, Scene* scene, ReadReport* report) {
     *report = {};
     if (is_mesh_file(path))
       HC_TRY(read_mesh_scene(path, &fresh, report));
+    else if (is_gltf_file(path))
+      HC_TRY(read_gltf_scene(path, &fresh, report));
     else if (has_extension(path, ".json"))
       HC_TRY(read_json_scene(path, &fresh, report));
     else
       return Status::error(StatusCode::kBadScene, path,
-                           ": a scene is read from a file named .json, ", kMeshExtensions);
+                           ": a scene is read from a file named .json, .gltf, .glb, ",
+                           kMeshExtensions);
     *scene = std::move(fresh);
     return {};
   });

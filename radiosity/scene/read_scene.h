@@ -7,8 +7,8 @@
 
 namespace hemicube::radiosity {
 
-/// Reads a scene: a mesh file (Wavefront OBJ with its material libraries, PLY, OFF or STL), or a
-/// JSON scene file (schema: scenes/README.md), told apart by the extension, in any case.
+/// Reads a scene: a mesh file (Wavefront OBJ with its material libraries, PLY, OFF or STL), a glTF
+/// file, or a JSON scene file (schema: scenes/README.md), told apart by the extension, in any case.
 /// @param scene   replaced; left as it was on an error
 /// @param report  replaced; on an error it tells of what was read until then
 /// @return kBadScene with the message `FILE:LINE: what is wrong`; kIo if reading breaks off;

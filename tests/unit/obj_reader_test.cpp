@@ -197,7 +197,7 @@ TEST_F(ObjReader, RefusesWhatIsNoObjFile) {
   expect_refused("missing.obj", "missing.obj: no such file");
   std::filesystem::create_directory(path("folder.obj"));
   expect_refused("folder.obj", "folder.obj: is a directory");
-  expect_refused("a.txt", "a.txt: a scene is read from a file named .json, .obj, .ply, .off or .s");
+  expect_refused("a.txt", "a.txt: a scene is read from a file named .json, .gltf, .glb, .obj, ");
   expect_refused("obj", "obj: a scene is read from");
   expect_error("usemtl \n", 1, "usemtl without a name");
   expect_error("mtllib # none\n", 1, "mtllib without a name");
