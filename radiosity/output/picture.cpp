@@ -2,6 +2,7 @@
 
 #include "radiosity/elementary.h"
 #include "radiosity/hemicube/five_views.h"
+#include "radiosity/mesh/straight_corners.h"
 #include "radiosity/output/camera_view.h"
 #include "radiosity/output/display_bands.h"
 #include "radiosity/output/interpolation.h"
@@ -19,9 +20,10 @@ constexpr std::int32_t kBlock = raster::kMaxWindowSize / kSamples; ///< pixels a
 class Shader {
 public:
   Shader(const Scene& scene, const PatchSet& patches, const Solution& solution,
-         std::span<const float> corner_radiosity, const CameraView& camera)
+         std::span<const float> corner_radiosity, std::span<const std::uint8_t> is_straight,
+         const CameraView& camera)
       : patches_(patches), solution_(solution), corner_radiosity_(corner_radiosity),
-        bands_(scene.bands), camera_(camera) {}
+        is_straight_(is_straight), bands_(scene.bands), camera_(camera) {}
 
   /// Radiance of a patch in a sample of the grid.
   Vec3 radiance(std::uint32_t patch, std::int32_t x, std::int32_t y) const {
@@ -31,7 +33,7 @@ public:
     if (count > kMaxInterpolatedCorners)
       return bands_(solution_.radiosity.data() + patch * bands) / kPi;
     double weights[kMaxInterpolatedCorners];
-    wachspress_weights(patches_, patch, point(patch, x, y), weights);
+    interpolation_weights(patches_, is_straight_, patch, point(patch, x, y), weights);
     Vec3 sum{0, 0, 0};
     for (std::uint32_t k = 0; k < count; ++k)
       sum += weights[k] * bands_(corner_radiosity_.data() + (begin + k) * bands);
@@ -63,6 +65,7 @@ private:
   const PatchSet& patches_;
   const Solution& solution_;
   std::span<const float> corner_radiosity_;
+  std::span<const std::uint8_t> is_straight_;
   DisplayBands bands_;
   const CameraView& camera_;
 };
@@ -116,7 +119,9 @@ Status draw_picture(const Scene& scene, const PatchSet& patches, const Solution&
   HC_TRY(buffer.init());
   rasterizer.begin(view.view);
 
-  const Shader shader(scene, patches, solution, corner_radiosity, view);
+  Buffer<std::uint8_t> is_straight;
+  HC_TRY(find_straight_corners(patches, &is_straight));
+  const Shader shader(scene, patches, solution, corner_radiosity, is_straight.span(), view);
   const auto width = static_cast<std::int32_t>(camera.width);
   const auto height = static_cast<std::int32_t>(camera.height);
   for (std::int32_t top = 0; top < height; top += kBlock)

@@ -15,7 +15,7 @@ struct Picture {
 };
 
 /// Draws a solution from a camera, 3 x 3 samples a pixel averaged in linear light. Back faces are
-/// not drawn. A point of a patch shows the rational interpolation of its corner values.
+/// not drawn. A point of a patch shows the interpolation (interpolation.h) of its corner values.
 /// @param corner_radiosity  from vertex_radiosities()
 /// @return kInvalidArgument for a camera that shows nothing; kOutOfMemory
 /// Deterministic: + - * / sqrt only, in a fixed order.

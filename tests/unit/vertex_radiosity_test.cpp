@@ -1,6 +1,5 @@
 #include "radiosity/output/vertex_radiosity.h"
 
-#include "radiosity/output/interpolation.h"
 #include "tests/unit/output_support.h"
 
 #include <cmath>
@@ -131,63 +130,6 @@ TEST(VertexRadiosity, LightBeyondFloatStaysFinite) {
   const PatchSet patches = patches_of(hemicube::test::furnace_cube(3, 0.5, 1));
   for (const float value : corner_values(patches, [](const Vec3&) { return 1e300; }))
     EXPECT_TRUE(std::isfinite(value));
-}
-
-TEST(Wachspress, IsBilinearOnARectangle) {
-  SceneBuilder builder(1);
-  builder.face(builder.material("grey", 0.5, 0), {{1, 0, 5}, {5, 0, 5}, {5, 2, 5}, {1, 2, 5}});
-  const PatchSet patches = patches_of(builder.finish());
-  for (const double u : {0.0, 0.25, 0.5, 0.9, 1.0})
-    for (const double v : {0.0, 0.3, 1.0}) {
-      double w[4];
-      wachspress_weights(patches, 0, {1 + 4 * u, 2 * v, 5}, w);
-      const double expected[] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
-      for (std::size_t k = 0; k < 4; ++k)
-        EXPECT_NEAR(w[k], expected[k], 1e-6) << u << " " << v;
-    }
-}
-
-TEST(Wachspress, ReproducesLinearFieldsAndIsNeverNegative) {
-  SceneBuilder builder(1);
-  // A pentagon with a sixth corner in the middle of its first edge.
-  builder.face(builder.material("grey", 0.5, 0),
-               {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 3, 1}, {0, 1, 3}, {0, -1, 1}});
-  const PatchSet patches = patches_of(builder.finish());
-  ASSERT_EQ(patches.patch_count(), 1u);
-  hemicube::test::Random random(2);
-  for (int trial = 0; trial < 200; ++trial) {
-    Vec3 point{0, 0, 0}; // a random convex combination of the corners
-    double sum = 0;
-    for (const std::uint32_t vertex : patches.corners) {
-      const double share = random.unit();
-      point += share * patches.vertices[vertex];
-      sum += share;
-    }
-    point /= sum;
-    double w[6];
-    wachspress_weights(patches, 0, point, w);
-    Vec3 again{0, 0, 0};
-    for (std::size_t k = 0; k < 6; ++k) {
-      EXPECT_GE(w[k], 0);
-      again += w[k] * patches.vertices[patches.corners[k]];
-    }
-    EXPECT_LT(glm::length(again - point), 1e-12);
-  }
-}
-
-TEST(Wachspress, WorksAtAnyScaleAndOutsideThePatch) {
-  for (const double scale : {1e-30, 1.0, 1e30}) {
-    SceneBuilder builder(1);
-    builder.face(builder.material("grey", 0.5, 0),
-                 {{0, 0, 0}, {scale, 0, 0}, {scale, scale, 0}, {0, scale, 0}});
-    const PatchSet patches = patches_of(builder.finish());
-    double w[4];
-    wachspress_weights(patches, 0, Vec3{0.5, -1e-9, 0} * scale, w);
-    EXPECT_NEAR(w[0], 0.5, 1e-6);
-    EXPECT_NEAR(w[1], 0.5, 1e-6);
-    wachspress_weights(patches, 0, Vec3{0, 0, 0}, w);
-    EXPECT_NEAR(w[0], 1, 1e-6);
-  }
 }
 
 } // namespace
