@@ -1,5 +1,7 @@
 #include "radiosity/output/vertex_radiosity.h"
 
+#include "radiosity/mesh/straight_corners.h"
+#include "radiosity/output/balanced_weights.h"
 #include "radiosity/output/shared_vertices.h"
 
 #include <cmath>
@@ -9,7 +11,6 @@ namespace {
 
 constexpr double kMinCosine = 0.99;
 constexpr double kMaxStretch = 3;
-/// Where more corners than this meet, each keeps its patch's own value: work stays linear.
 constexpr std::size_t kMaxMeeting = 512;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
@@ -27,6 +28,15 @@ std::uint64_t spread(std::uint64_t x) noexcept {
   return x ^ (x >> 31);
 }
 
+/// The corners at a vertex whose patches form one smooth surface, and what of each patch counts.
+struct Meeting {
+  std::size_t count = 0;
+  Vec3 normal;                        ///< of the surface there, unit
+  std::uint32_t corners[kMaxMeeting]; ///< ascending
+  Vec3 offset[kMaxMeeting];           ///< of the patch's centre from the vertex
+  double weight[kMaxMeeting];         ///< of the patch
+};
+
 class CornerValues {
 public:
   CornerValues(const PatchSet& patches, std::span<const double> radiosity, std::uint32_t band_count)
@@ -34,8 +44,10 @@ public:
 
   Status compute(Buffer<float>* out) {
     HC_TRY(find_shared_vertices(patches_, &shared_));
-    const std::size_t corner_count = patches_.corners.size();
-    HC_TRY(mean_.resize(corner_count * band_count_));
+    HC_TRY(find_straight_corners(patches_, &is_straight_));
+    const auto corner_count = static_cast<std::uint32_t>(patches_.corners.size());
+    HC_TRY(find_surfaces());
+    HC_TRY(mean_.resize(std::size_t{corner_count} * band_count_));
     HC_TRY(is_inside_.resize(corner_count));
     for (std::uint32_t corner = 0; corner < corner_count; ++corner)
       average(corner);
@@ -45,7 +57,10 @@ public:
       (*out)[i] = to_float(mean_[i]);
     for (std::uint32_t corner = 0; corner < corner_count; ++corner)
       if (!is_inside_[corner])
-        extrapolate(corner, out->data() + std::size_t{corner} * band_count_);
+        extrapolate(corner, out->data());
+    for (std::uint32_t corner = 0; corner < corner_count; ++corner)
+      if (is_straight_[corner] && is_alone(corner))
+        put_on_side(corner, out->data());
     return {};
   }
 
@@ -55,93 +70,211 @@ private:
   }
   Vec3 point_of(std::uint32_t corner) const { return patches_.vertices[patches_.corners[corner]]; }
 
-  /// The corner `steps` further around the same patch.
-  std::uint32_t along(std::uint32_t corner, std::uint32_t steps) const {
-    const std::uint32_t patch = shared_.corner_patch[corner];
-    const std::uint32_t begin = patches_.corner_offsets[patch];
-    const std::uint32_t count = patches_.corner_offsets[patch + 1] - begin;
-    return begin + (corner - begin + steps) % count;
-  }
   std::uint32_t corner_count_of(std::uint32_t corner) const {
     const std::uint32_t patch = shared_.corner_patch[corner];
     return patches_.corner_offsets[patch + 1] - patches_.corner_offsets[patch];
   }
-
-  /// Calls visit(corner, patch) for every corner at the same position on the same smooth surface.
-  template <typename Visit> void for_each_meeting(std::uint32_t corner, Visit&& visit) const {
-    const std::uint32_t own = shared_.corner_patch[corner];
-    const auto meeting = shared_.corners_at(position_of(corner));
-    if (meeting.size() > kMaxMeeting) {
-      visit(corner, own);
-      return;
-    }
-    for (const std::uint32_t other : meeting) {
-      const std::uint32_t patch = shared_.corner_patch[other];
-      if (patch == own || (patches_.material[patch] == patches_.material[own] &&
-                           glm::dot(patches_.normal[patch], patches_.normal[own]) > kMinCosine))
-        visit(other, patch);
-    }
+  /// The corner `steps` further around the same patch.
+  std::uint32_t along(std::uint32_t corner, std::uint32_t steps) const {
+    const std::uint32_t begin = patches_.corner_offsets[shared_.corner_patch[corner]];
+    return begin + (corner - begin + steps) % corner_count_of(corner);
   }
 
-  /// The mean of the patches around a corner; and whether they close around it: every edge that
-  /// leaves the vertex in one of them then comes back in another.
+  bool is_one_surface(std::uint32_t patch, std::uint32_t other) const {
+    return patches_.material[patch] == patches_.material[other] &&
+           glm::dot(patches_.normal[patch], patches_.normal[other]) > kMinCosine;
+  }
+
+  /// Names the surfaces at every position by their lowest corner. Being one surface is handed on
+  /// from patch to patch: on a finely bent surface the two sides of an edge would else take their
+  /// means over different patches.
+  Status find_surfaces() {
+    HC_TRY(surface_.resize(patches_.corners.size()));
+    for (std::uint32_t corner = 0; corner < surface_.size(); ++corner)
+      surface_[corner] = corner;
+    for (std::uint32_t at = 0; at + 1 < shared_.offsets.size(); ++at) {
+      const auto meeting = shared_.corners_at(at);
+      if (meeting.size() > kMaxMeeting)
+        continue;
+      for (std::size_t i = 1; i < meeting.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          if (surface_[meeting[j]] != surface_[meeting[i]] &&
+              is_one_surface(shared_.corner_patch[meeting[j]], shared_.corner_patch[meeting[i]]))
+            join_surfaces(meeting.first(i + 1), surface_[meeting[j]], surface_[meeting[i]]);
+    }
+    return {};
+  }
+  void join_surfaces(std::span<const std::uint32_t> corners, std::uint32_t a, std::uint32_t b) {
+    for (const std::uint32_t corner : corners)
+      if (surface_[corner] == a || surface_[corner] == b)
+        surface_[corner] = a < b ? a : b;
+  }
+
+  /// Fills meeting_ for a surface, all weights areas over the largest.
+  void gather(std::uint32_t surface) {
+    const auto at_position = shared_.corners_at(position_of(surface));
+    const Vec3 vertex = point_of(surface);
+    meeting_.count = 0;
+    Vec3 normal{0, 0, 0};
+    double largest = 0;
+    const auto add = [&](std::uint32_t corner) {
+      const std::uint32_t patch = shared_.corner_patch[corner];
+      meeting_.corners[meeting_.count] = corner;
+      meeting_.offset[meeting_.count] = patches_.centre[patch] - vertex;
+      meeting_.weight[meeting_.count++] = patches_.area[patch];
+      largest = std::fmax(largest, patches_.area[patch]);
+    };
+    if (at_position.size() > kMaxMeeting)
+      add(surface);
+    else
+      for (const std::uint32_t corner : at_position)
+        if (surface_[corner] == surface)
+          add(corner);
+    for (std::size_t k = 0; k < meeting_.count; ++k) {
+      meeting_.weight[k] /= largest;
+      normal += meeting_.weight[k] * patches_.normal[patch_at(k)];
+    }
+    // On a closed tip the normals may cancel.
+    meeting_.normal = glm::length(normal) > 0 ? unit(normal) : patches_.normal[patch_at(0)];
+  }
+  std::uint32_t patch_at(std::size_t k) const { return shared_.corner_patch[meeting_.corners[k]]; }
+
+  /// Whether the patches close around the vertex: every edge that leaves it in one of them then
+  /// comes back in another.
+  bool closes() const {
+    std::uint64_t open_edges = 0;
+    for (std::size_t k = 0; k < meeting_.count; ++k) {
+      const std::uint32_t corner = meeting_.corners[k];
+      open_edges += spread(position_of(along(corner, 1)));
+      open_edges -= spread(position_of(along(corner, corner_count_of(corner) - 1)));
+    }
+    return open_edges == 0;
+  }
+
+  double mean_in_band(std::uint32_t band) const {
+    double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < meeting_.count; ++k) {
+      sum += meeting_.weight[k] * value(patch_at(k), band);
+      weights += meeting_.weight[k];
+    }
+    return sum / weights;
+  }
+
   void average(std::uint32_t corner) {
     double* mean = mean_.data() + std::size_t{corner} * band_count_;
-    double area = 0;
-    std::uint64_t open_edges = 0;
-    for_each_meeting(corner, [&](std::uint32_t other, std::uint32_t patch) {
-      const double weight = patches_.area[patch];
-      area += weight;
+    const std::uint32_t surface = surface_[corner];
+    if (surface != corner) { // done before
       for (std::uint32_t band = 0; band < band_count_; ++band)
-        mean[band] += weight * value(patch, band);
-      open_edges += spread(position_of(along(other, 1)));
-      open_edges -= spread(position_of(along(other, corner_count_of(other) - 1)));
-    });
+        mean[band] = mean_[std::size_t{surface} * band_count_ + band];
+      is_inside_[corner] = is_inside_[surface];
+      return;
+    }
+    gather(surface);
+    is_inside_[corner] = closes();
+    if (is_inside_[corner])
+      balance_about_point(offsets(), meeting_.normal, weights());
     for (std::uint32_t band = 0; band < band_count_; ++band)
-      mean[band] /= area;
-    is_inside_[corner] = open_edges == 0;
+      mean[band] = mean_in_band(band);
+  }
+  std::span<const Vec3> offsets() const { return {meeting_.offset, meeting_.count}; }
+  std::span<double> weights() { return {meeting_.weight, meeting_.count}; }
+
+  /// The weighted mean of the offsets: the place, seen from the vertex, that the mean belongs to.
+  Vec3 middle() const {
+    Vec3 sum{0, 0, 0};
+    double weights = 0;
+    for (std::size_t k = 0; k < meeting_.count; ++k) {
+      sum += meeting_.weight[k] * meeting_.offset[k];
+      weights += meeting_.weight[k];
+    }
+    return sum / weights;
   }
 
-  /// The inside vertex to extrapolate from: the end of an edge at the border vertex, or else the
-  /// opposite corner of a patch around it; kNone if there is none. Of several, the lowest corner.
-  std::uint32_t inside_corner(std::uint32_t corner) const {
-    std::uint32_t by_edge = kNone, opposite = kNone;
-    for_each_meeting(corner, [&](std::uint32_t other, std::uint32_t) {
-      const std::uint32_t count = corner_count_of(other);
-      for (const std::uint32_t steps : {1u, count - 1})
-        if (by_edge == kNone && is_inside_[along(other, steps)])
-          by_edge = along(other, steps);
-      if (opposite == kNone && is_inside_[along(other, count / 2)])
-        opposite = along(other, count / 2);
-    });
-    return by_edge != kNone ? by_edge : opposite;
+  /// The inside vertex of the patches of meeting_ from which the way through the middle leads most
+  /// straight to the vertex; of several, the first one around the lowest corner. kNone if there is
+  /// none.
+  std::uint32_t inside_corner() const {
+    const Vec3 vertex = point_of(meeting_.corners[0]);
+    const Vec3 middle = this->middle();
+    std::uint32_t best = kNone;
+    double best_cosine = 0;
+    for (std::size_t k = 0; k < meeting_.count; ++k) {
+      const std::uint32_t count = corner_count_of(meeting_.corners[k]);
+      for (std::uint32_t steps = 1; steps < count; ++steps) {
+        const std::uint32_t candidate = along(meeting_.corners[k], steps);
+        if (!is_inside_[candidate])
+          continue;
+        const Vec3 away = point_of(candidate) - vertex;
+        const double cosine = glm::dot(away, middle) / glm::length(away);
+        if (cosine > best_cosine * (1 + 1e-9)) { // rounding does not choose
+          best = candidate;
+          best_cosine = cosine;
+        }
+      }
+    }
+    return best;
   }
 
-  void extrapolate(std::uint32_t corner, float* out) const {
-    const std::uint32_t inside = inside_corner(corner);
+  void extrapolate(std::uint32_t corner, float* out) {
+    float* mine = out + std::size_t{corner} * band_count_;
+    const std::uint32_t surface = surface_[corner];
+    if (surface != corner) { // done before
+      for (std::uint32_t band = 0; band < band_count_; ++band)
+        mine[band] = out[std::size_t{surface} * band_count_ + band];
+      return;
+    }
+    if (shared_.corners_at(position_of(corner)).size() > kMaxMeeting)
+      return;
+    gather(surface);
+    const std::uint32_t inside = inside_corner();
     if (inside == kNone)
       return;
-    const Vec3 from = point_of(inside);
-    Vec3 middle{0, 0, 0}; // relative to `from`: the place the mean belongs to
-    double area = 0;
-    for_each_meeting(corner, [&](std::uint32_t, std::uint32_t patch) {
-      area += patches_.area[patch];
-      middle += patches_.area[patch] * (patches_.centre[patch] - from);
-    });
-    middle /= area;
-    const double ratio = glm::dot(point_of(corner) - from, middle) / glm::dot(middle, middle);
+    const Vec3 way = point_of(corner) - point_of(inside);
+    balance_about_line(offsets(), meeting_.normal, way, weights());
+    const Vec3 half_way = way + middle(); // seen from the inside vertex
+    const double ratio = glm::dot(way, half_way) / glm::dot(half_way, half_way);
     if (!(ratio > 1)) // the vertex does not lie beyond the mean
       return;
     const double stretch = ratio < kMaxStretch ? ratio : kMaxStretch;
     for (std::uint32_t band = 0; band < band_count_; ++band) {
       double largest = 0;
-      for_each_meeting(corner, [&](std::uint32_t, std::uint32_t patch) {
-        largest = std::fmax(largest, value(patch, band));
-      });
+      for (std::size_t k = 0; k < meeting_.count; ++k)
+        largest = std::fmax(largest, value(patch_at(k), band));
       const double start = mean_[std::size_t{inside} * band_count_ + band];
-      const double mean = mean_[std::size_t{corner} * band_count_ + band];
-      const double beyond = start + stretch * (mean - start);
-      out[band] = to_float(std::fmin(std::fmax(beyond, 0), 2 * largest));
+      const double beyond = start + stretch * (mean_in_band(band) - start);
+      mine[band] = to_float(std::fmin(std::fmax(beyond, 0), 2 * largest));
+    }
+  }
+
+  /// Whether no other patch of its surface touches a corner.
+  bool is_alone(std::uint32_t corner) const {
+    if (surface_[corner] != corner)
+      return false;
+    const auto meeting = shared_.corners_at(position_of(corner));
+    if (meeting.size() > kMaxMeeting)
+      return false;
+    for (const std::uint32_t other : meeting)
+      if (other != corner && surface_[other] == corner)
+        return false;
+    return true;
+  }
+
+  /// Puts a straight corner between the corners at which its side begins and ends.
+  void put_on_side(std::uint32_t corner, float* out) const {
+    const std::uint32_t count = corner_count_of(corner);
+    std::uint32_t before = count - 1, after = 1;
+    while (is_straight_[along(corner, before)])
+      --before;
+    while (is_straight_[along(corner, after)])
+      ++after;
+    const std::uint32_t begin = along(corner, before), end = along(corner, after);
+    const double to_begin = glm::length(point_of(corner) - point_of(begin));
+    const double to_end = glm::length(point_of(end) - point_of(corner));
+    const double share = to_begin / (to_begin + to_end);
+    for (std::uint32_t band = 0; band < band_count_; ++band) {
+      const auto from = static_cast<double>(out[std::size_t{begin} * band_count_ + band]);
+      const auto to = static_cast<double>(out[std::size_t{end} * band_count_ + band]);
+      out[std::size_t{corner} * band_count_ + band] = to_float(from + share * (to - from));
     }
   }
 
@@ -153,8 +286,11 @@ private:
   std::span<const double> radiosity_;
   std::uint32_t band_count_;
   SharedVertices shared_;
-  Buffer<double> mean_;            ///< [corner][band]
-  Buffer<std::uint8_t> is_inside_; ///< [corner]
+  Buffer<std::uint8_t> is_straight_; ///< [corner]
+  Buffer<std::uint32_t> surface_;    ///< [corner] the lowest corner there on the same surface
+  Buffer<double> mean_;              ///< [corner][band]
+  Buffer<std::uint8_t> is_inside_;   ///< [corner]
+  Meeting meeting_;                  ///< scratch
 };
 
 } // namespace
