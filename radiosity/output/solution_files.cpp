@@ -53,7 +53,12 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
                       &picture));
   const Result<double> exposure = choose_exposure(picture, parts.exposure);
   HC_TRY(exposure.status());
-  HC_TRY(write_ply(files, "solution.ply", scene, patches, corner_radiosity, exposure.value()));
+  const CornerVertices vertices =
+      gather_corner_vertices(patches, corner_radiosity, solution.band_count);
+  HC_TRY(write_ply(files, "solution.ply", scene, patches, vertices, PlyColours::kDisplay,
+                   exposure.value()));
+  HC_TRY(write_ply(files, "solution_float.ply", scene, patches, vertices, PlyColours::kRadiance,
+                   exposure.value()));
   HC_TRY(write_pictures(files, picture, exposure.value(), picture_note));
   HC_TRY(write_report(files, parts.report, start, report));
   return files->commit();
@@ -73,8 +78,8 @@ Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity) 
 
 Status begin_solution(FileSet* files, const std::string& folder) {
   HC_TRY(files->begin(folder));
-  for (const char* name :
-       {"patches.csv", "groups.csv", "solution.ply", "view.exr", "view.png", "report.json"})
+  for (const char* name : {"patches.csv", "groups.csv", "solution.ply", "solution_float.ply",
+                           "view.exr", "view.png", "report.json"})
     HC_TRY(files->check_name(name));
   return {};
 }

@@ -22,8 +22,8 @@ struct SolutionParts {
 /// @return kIo
 Status begin_solution(FileSet* files, const std::string& folder);
 
-/// Writes patches.csv, groups.csv, solution.ply, view.exr, view.png and report.json, and commits
-/// them.
+/// Writes patches.csv, groups.csv, solution.ply, solution_float.ply, view.exr, view.png and
+/// report.json, and commits them.
 /// @param report         receives the text of report.json
 /// @param picture_note   receives why there are no pictures if the image plug-in cannot be loaded:
 /// a

@@ -46,10 +46,13 @@ private:
 
 struct PlyWriterTest : OutputFolder {
   std::string write(const Scene& scene, const PatchSet& patches,
-                    const std::vector<float>& corner_radiosity) {
+                    const std::vector<float>& corner_radiosity,
+                    PlyColours colours = PlyColours::kDisplay) {
     FileSet files;
     require(files.begin(folder_.string()));
-    require(write_ply(&files, "s.ply", scene, patches, corner_radiosity, 2.0));
+    const CornerVertices vertices =
+        gather_corner_vertices(patches, corner_radiosity, scene.band_count());
+    require(write_ply(&files, "s.ply", scene, patches, vertices, colours, 2.0));
     require(files.commit());
     return read(path("s.ply"));
   }
@@ -99,6 +102,29 @@ TEST_F(PlyWriterTest, CornersOfOneValueShareAVertex) {
     EXPECT_EQ(ply.take<std::int32_t>(), face);
   }
   EXPECT_TRUE(ply.at_end());
+}
+
+// Catches: a float variant with display values, or with radiosities for radiances.
+TEST_F(PlyWriterTest, FloatColoursAreRadiances) {
+  SceneBuilder builder(3);
+  builder.face(builder.material("grey", 0.5, 0), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const Scene scene = builder.finish();
+  const std::vector<float> light = {1, 2, 3, 40, 50, 60, 0, 0, 0};
+  const std::string bytes = write(scene, patches_of(scene), light, PlyColours::kRadiance);
+  Ply ply(bytes);
+  ASSERT_EQ(ply.floats, 9u);
+  EXPECT_NE(ply.header.find("property float red\nproperty float green\nproperty float blue\n"),
+            std::string::npos);
+  EXPECT_NE(ply.header.find("W/(m^2 sr)"), std::string::npos);
+  for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+    for (int axis = 0; axis < 3; ++axis)
+      ply.take<float>();
+    for (std::size_t band = 0; band < 3; ++band)
+      EXPECT_EQ(ply.take<float>(), light[3 * vertex + band]);
+    for (std::size_t band = 0; band < 3; ++band)
+      EXPECT_FLOAT_EQ(ply.take<float>(), light[3 * vertex + band] / 3.14159265f);
+  }
+  EXPECT_EQ(ply.take<std::uint8_t>(), 3);
 }
 
 TEST_F(PlyWriterTest, LargeFacesGetALargeCount) {
