@@ -178,7 +178,7 @@ private:
     CLI::App* sub =
         add_command(Command::kSolve, "solve",
                     "Compute the light in a scene: patches.csv, groups.csv, solution.ply, "
-                    "solution_float.ply, "
+                    "solution_float.ply, solution.glb, "
                     "view.exr, view.png, report.json");
     add_scene(sub, &line_);
     add_path(sub, "-o", "DIR", "folder for the files [none: print a summary only]", &line_.output);

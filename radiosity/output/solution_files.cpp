@@ -1,5 +1,6 @@
 #include "radiosity/output/solution_files.h"
 
+#include "radiosity/output/glb_writer.h"
 #include "radiosity/output/group_table.h"
 #include "radiosity/output/image_writer.h"
 #include "radiosity/output/patch_table.h"
@@ -14,10 +15,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Status write_pictures(FileSet* files, const Picture& picture, double exposure,
-                      std::string* picture_note) {
+void add_note(const Status& status, std::string* note) {
+  *note += note->empty() ? "" : "\n";
+  *note += status.message();
+}
+
+Status write_pictures(FileSet* files, const Picture& picture, double exposure, std::string* note) {
   if (const Status loaded = load_image_plugin(); !loaded.ok()) {
-    *picture_note = loaded.message();
+    add_note(loaded, note);
     return {};
   }
   HC_TRY(write_picture(files, "view.exr", picture, exposure));
@@ -32,8 +37,28 @@ Status write_report(FileSet* files, const ReportParts& parts, Clock::time_point 
   return files->add("report.json", *report);
 }
 
+Status write_meshes(FileSet* files, const SolutionParts& parts,
+                    std::span<const float> corner_radiosity, double exposure, std::string* note) {
+  const Scene& scene = parts.report.scene;
+  const PatchSet& patches = parts.patches;
+  const CornerVertices vertices =
+      gather_corner_vertices(patches, corner_radiosity, parts.solution.band_count);
+  HC_TRY(
+      write_ply(files, "solution.ply", scene, patches, vertices, PlyColours::kDisplay, exposure));
+  HC_TRY(write_ply(files, "solution_float.ply", scene, patches, vertices, PlyColours::kRadiance,
+                   exposure));
+  DisplayMesh mesh;
+  HC_TRY(build_display_mesh(scene, patches, vertices, &mesh));
+  const Status written =
+      write_glb(files, "solution.glb", scene, mesh, exposure, parts.camera, parts.report.version);
+  if (written.code() != StatusCode::kInvalidArgument)
+    return written;
+  add_note(written, note); // more than the format can hold
+  return {};
+}
+
 Status write_all(FileSet* files, const SolutionParts& parts, std::string* report,
-                 std::string* picture_note) {
+                 std::string* note) {
   const Clock::time_point start = Clock::now();
   const Scene& scene = parts.report.scene;
   const PatchSet& patches = parts.patches;
@@ -53,13 +78,8 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
                       &picture));
   const Result<double> exposure = choose_exposure(picture, parts.exposure);
   HC_TRY(exposure.status());
-  const CornerVertices vertices =
-      gather_corner_vertices(patches, corner_radiosity, solution.band_count);
-  HC_TRY(write_ply(files, "solution.ply", scene, patches, vertices, PlyColours::kDisplay,
-                   exposure.value()));
-  HC_TRY(write_ply(files, "solution_float.ply", scene, patches, vertices, PlyColours::kRadiance,
-                   exposure.value()));
-  HC_TRY(write_pictures(files, picture, exposure.value(), picture_note));
+  HC_TRY(write_meshes(files, parts, corner_radiosity.span(), exposure.value(), note));
+  HC_TRY(write_pictures(files, picture, exposure.value(), note));
   HC_TRY(write_report(files, parts.report, start, report));
   return files->commit();
 }
@@ -79,16 +99,16 @@ Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity) 
 Status begin_solution(FileSet* files, const std::string& folder) {
   HC_TRY(files->begin(folder));
   for (const char* name : {"patches.csv", "groups.csv", "solution.ply", "solution_float.ply",
-                           "view.exr", "view.png", "report.json"})
+                           "solution.glb", "view.exr", "view.png", "report.json"})
     HC_TRY(files->check_name(name));
   return {};
 }
 
 Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
-                      std::string* picture_note) {
-  picture_note->clear();
+                      std::string* note) {
+  note->clear();
   try {
-    return write_all(files, parts, report, picture_note);
+    return write_all(files, parts, report, note);
   } catch (const std::exception& exception) { // in practice: no memory for a text
     return Status::error(StatusCode::kOutOfMemory,
                          "the solution cannot be written: ", exception.what());

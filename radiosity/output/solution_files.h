@@ -22,15 +22,15 @@ struct SolutionParts {
 /// @return kIo
 Status begin_solution(FileSet* files, const std::string& folder);
 
-/// Writes patches.csv, groups.csv, solution.ply, solution_float.ply, view.exr, view.png and
-/// report.json, and commits them.
+/// Writes patches.csv, groups.csv, solution.ply, solution_float.ply, solution.glb, view.exr,
+/// view.png and report.json, and commits them.
 /// @param report         receives the text of report.json
-/// @param picture_note   receives why there are no pictures if the image plug-in cannot be loaded:
-/// a
-///                       solution is not thrown away for that
+/// @param note           receives which files are missing and why: if the image plug-in cannot be
+///                       loaded, pictures; if it cannot hold the mesh, solution.glb. A solution is
+///                       not thrown away for that
 /// @return kIo, kInvalidArgument (camera), kOutOfMemory; no file has then changed
 Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
-                      std::string* picture_note);
+                      std::string* note);
 
 /// Radiosity as pictures show it: where light is still unshot, with what the ambient term makes of
 /// it (Cohen et al. 1988). Tables and PLY files never have it.

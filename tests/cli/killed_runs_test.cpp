@@ -119,8 +119,8 @@ TEST_F(KilledRunsTest, AKilledSolveGoesOnUntilItEnds) {
   EXPECT_GT(last["run"]["rows_resumed"], 0);
   EXPECT_EQ(new_files(),
             (std::set<std::string>{"out/", "out/groups.csv", "out/patches.csv", "out/report.json",
-                                   "out/solution.ply", "out/solution_float.ply", "out/view.exr",
-                                   "out/view.png"}));
+                                   "out/solution.glb", "out/solution.ply", "out/solution_float.ply",
+                                   "out/view.exr", "out/view.png"}));
   EXPECT_EQ(Json::parse(read("out/report.json"))["result"], expected["result"]);
 }
 

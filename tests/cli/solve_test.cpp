@@ -42,8 +42,8 @@ TEST_F(SolveTest, WritesAllFilesAndNoOthers) {
   const ProgramResult result = run(0, {"solve", write_room(), "-o", path("a/b")});
   EXPECT_EQ(new_files(),
             (std::set<std::string>{"a/", "a/b/", "a/b/groups.csv", "a/b/patches.csv",
-                                   "a/b/report.json", "a/b/solution.ply", "a/b/solution_float.ply",
-                                   "a/b/view.exr", "a/b/view.png"}));
+                                   "a/b/report.json", "a/b/solution.glb", "a/b/solution.ply",
+                                   "a/b/solution_float.ply", "a/b/view.exr", "a/b/view.png"}));
   EXPECT_EQ(lines_of(read("a/b/patches.csv")).size(), 7u);
   EXPECT_EQ(read("a/b/solution.ply").substr(0, 4), "ply\n");
   EXPECT_EQ(read("a/b/view.png").substr(1, 3), "PNG");

@@ -43,7 +43,7 @@ TEST_F(SolutionFilesTest, WritesAllFilesAndTheSameBytesTwice) {
   require(write(path("two"), camera));
   EXPECT_EQ(picture_note, "") << "the plug-in stands beside the test program";
   for (const char* name : {"patches.csv", "groups.csv", "solution.ply", "solution_float.ply",
-                           "view.exr", "view.png"}) {
+                           "solution.glb", "view.exr", "view.png"}) {
     const std::string bytes = read(path("one") + "/" + name);
     EXPECT_GT(bytes.size(), 50u) << name;
     EXPECT_EQ(bytes, read(path("two") + "/" + name)) << name;
