@@ -14,6 +14,7 @@ FUZZ_PACKAGES := clang libclang-rt-14-dev
 BENCH_PACKAGES := libbenchmark-dev
 PLOT_PACKAGES := gnuplot-nox
 PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri $(PLOT_PACKAGES)
+VIEWER_PACKAGES := nodejs npm chromium
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
 # Packages of a list that are not installed; none where there is no dpkg to ask.
@@ -26,7 +27,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed solvers growth peers golden clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed solvers growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -133,6 +134,15 @@ golden: deps ## rewrite tests/golden/hashes.txt (only for changes that are meant
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS) --target golden_test
 	@HEMICUBE_WRITE_GOLDEN=1 $(BUILD)/tests/golden_test --gtest_brief=1
+
+check-glb: ## solution.glb in a browser, against its own colours and view.png (needs node, npm, chromium)
+	@for tool in node npm chromium; do command -v $$tool >/dev/null || { \
+	  echo "check-glb: there is no $$tool; install it, for example with: $(SUDO) $(APT_INSTALL) $(VIEWER_PACKAGES)"; exit 1; }; done
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE)
+	@cmake --build $(BUILD) --parallel $(JOBS) --target hemicube
+	@$(BUILD)/hemicube solve scenes/cornell.json --rung hemicube --resolution 64 --quiet -o $(BUILD)/viewers/cornell
+	@npm install --prefix $(BUILD)/viewers --no-audit --no-fund --loglevel error three@0.160.1 gltf-validator@2.0.0-dev.3.10
+	@node tests/viewers/check_glb.mjs $(BUILD)/viewers/cornell $(BUILD)/viewers chromium
 
 ci: test format-check determinism ## what .ci/run runs
 
