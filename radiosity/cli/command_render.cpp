@@ -1,10 +1,10 @@
 #include "radiosity/cli/commands.h"
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/picture_options.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/cli/solution_folder.h"
 #include "radiosity/output/image_writer.h"
-#include "radiosity/output/vertex_radiosity.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,17 +12,28 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
+/// What the picture shows; says what of it is not known.
+Status find_values(const Session& session, const Solution& solution, PictureValues* values) {
+  const PictureOptions& wish = session.line.picture;
+  HC_TRY(picture_values(session.loaded.patches, solution, wish.quantity, wish.flat, values));
+  const std::uint32_t unknown = unknown_count(*values);
+  if (unknown != 0 && !session.line.quiet)
+    print_message(concat(counted(unknown, "patch is", "patches are"),
+                         " drawn as background: solved with --no-black-irradiance, the "
+                         "irradiance there is not known"));
+  return {};
+}
+
 /// Draws the picture and writes it aside. @param exposure  receives the one that was used
-Status write_image(const Session& session, const Solution& solution, const Camera& camera,
+Status write_image(Session* session, const Solution& solution, const Camera& camera,
                    const std::string& name, FileSet* files, double* exposure) {
-  const LoadedScene& loaded = session.loaded;
-  Buffer<float> corner_radiosity;
-  HC_TRY(vertex_radiosities(loaded.patches, solution.radiosity, solution.band_count,
-                            &corner_radiosity));
+  const CommandLine& line = session->line;
+  PictureValues values;
+  HC_TRY(find_values(*session, solution, &values));
   Picture picture;
-  HC_TRY(draw_picture(loaded.scene, loaded.patches, solution, corner_radiosity, camera,
-                      *session.line.options.kernels, &picture));
-  const Result<double> chosen = choose_exposure(picture, session.line.exposure);
+  HC_TRY(draw_picture(session->loaded.scene, session->loaded.patches, values, camera,
+                      {*line.options.kernels, line.picture.samples}, session->workers(), &picture));
+  const Result<double> chosen = choose_exposure(picture, line.exposure);
   HC_TRY(chosen.status());
   *exposure = chosen.value();
   return write_picture(files, name, picture, *exposure);
@@ -46,7 +57,7 @@ void print_summary(const CommandLine& line, const Camera& camera, double exposur
 
 Status run_render(const CommandLine& given) {
   CommandLine line = given;
-  HC_TRY(image_kind(line.output).status());
+  HC_TRY(check_picture_options(line));
   std::error_code ignored;
   const bool is_solved = std::filesystem::is_directory(line.input, ignored);
   if (!is_solved && !line.scene.empty())
@@ -74,7 +85,7 @@ Status run_render(const CommandLine& given) {
   if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
     return solved;
   double exposure = 0;
-  HC_TRY(write_image(session, solution, camera, name, &files, &exposure));
+  HC_TRY(write_image(&session, solution, camera, name, &files, &exposure));
   HC_TRY(check_interrupt());
   HC_TRY(files.commit());
   print_summary(line, camera, exposure);

@@ -5,7 +5,6 @@
 #include "radiosity/cli/session.h"
 #include "radiosity/output/image_writer.h"
 #include "radiosity/output/solution_files.h"
-#include "radiosity/output/vertex_radiosity.h"
 
 #include <cmath>
 
@@ -31,15 +30,14 @@ std::string residual_text(const Certificate& c) {
 Status write_snapshot(Session* session, const Camera& camera, std::uint64_t shots,
                       const Solution& solution) {
   const LoadedScene& loaded = session->loaded;
-  Buffer<double> displayed;
-  Buffer<float> corner_radiosity;
+  PictureValues displayed;
+  SerialExecutor serial; // this is called from within the work of the others
   Picture picture;
   FileSet files;
   HC_TRY(load_image_plugin());
-  HC_TRY(displayed_radiosity(solution, &displayed));
-  HC_TRY(vertex_radiosities(loaded.patches, displayed, solution.band_count, &corner_radiosity));
-  HC_TRY(draw_picture(loaded.scene, loaded.patches, solution, corner_radiosity, camera,
-                      *session->line.options.kernels, &picture));
+  HC_TRY(displayed_values(loaded.patches, solution, &displayed));
+  HC_TRY(draw_picture(loaded.scene, loaded.patches, displayed, camera,
+                      {*session->line.options.kernels}, serial, &picture));
   const Result<double> exposure = choose_exposure(picture, session->line.exposure);
   HC_TRY(exposure.status());
   std::string name = std::to_string(shots);

@@ -2,6 +2,7 @@
 
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/option_values.h"
+#include "radiosity/cli/picture_options.h"
 #include "radiosity/cli/requirements.h"
 #include "raster/types.h"
 
@@ -269,6 +270,18 @@ private:
     add_path(sub, "-o", "IMAGE", "picture: .png, .exr, ...", &line_.output)->required();
     add_exposure(sub);
     add_camera(sub);
+    for (const PictureOption& option : picture_options())
+      add_picture_option(sub, option);
+  }
+
+  void add_picture_option(CLI::App* sub, const PictureOption& option) {
+    PictureOptions& picture = line_.picture;
+    if (option.placeholder == nullptr)
+      sub->add_flag_callback(
+          option.names, [&picture, option] { option.set({}, &picture); }, option.description);
+    else
+      add_value(sub, option.names, option.placeholder, option.description,
+                [&picture, option](const std::string& text) { option.set(text, &picture); });
   }
 
   void add_camera(CLI::App* sub) {
@@ -291,11 +304,13 @@ private:
   }
 
   void add_exposure(CLI::App* sub) {
-    add_value(sub, "--exposure", "X",
-              "display white is a radiance of 1/X W/(m^2 sr) [chosen from the picture]",
-              [this](const std::string& text) {
-                line_.exposure = parse_real_number(text, 0, kInfinity);
-              });
+    add_value(
+        sub, "--exposure", "X",
+        "display white is a radiance of 1/X W/(m^2 sr), or 1/X of what is shown [chosen from the "
+        "picture]",
+        [this](const std::string& text) {
+          line_.exposure = parse_real_number(text, 0, kInfinity);
+        });
   }
 
   void add_info() {

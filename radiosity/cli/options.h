@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/output/picture.h"
 #include "radiosity/radiosity.h"
 
 #include <cstdint>
@@ -29,6 +30,13 @@ struct CameraOptions {
   std::optional<std::uint32_t> width, height; ///< pixels
 
   bool is_any() const { return position || target || up || field_of_view || width || height; }
+};
+
+/// What a picture shows, and how.
+struct PictureOptions {
+  Quantity quantity = Quantity::kRadiance;
+  bool flat = false;
+  std::uint32_t samples = PictureSetting::kSamples;
 };
 
 struct CheckedRun;
@@ -63,6 +71,7 @@ struct CommandLine {
   RowSelection rows;                        ///< formfactors --rows
   std::string scene;                        ///< render, probe; empty = none
   CameraOptions camera;                     ///< render
+  PictureOptions picture;                   ///< render
   std::vector<Requirement> requirements;    ///< solve, formfactors
   double exposure = 0;                      ///< solve, render; 0 = chosen
   std::optional<std::uint32_t> patch, face; ///< look: one of them

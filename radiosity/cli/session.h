@@ -52,6 +52,8 @@ public:
   /// "rung hemicube at 64 (567 hemicubes/s), form factor error 0.01".
   std::string rung_text(const Certificate& certificate) const;
 
+  Executor& workers() { return pool_; }
+
   const CommandLine& line;
   LoadedScene loaded;
   RunReport run;

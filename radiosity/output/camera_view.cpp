@@ -2,6 +2,7 @@
 
 #include "radiosity/elementary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -30,21 +31,26 @@ Status refuse(const char* what) {
   return Status::error(StatusCode::kInvalidArgument, "camera: ", what);
 }
 
-template <typename Number> Status refuse(const char* what, Number value, const char* range) {
+template <typename Number, typename... Range>
+Status refuse_value(const char* what, Number value, const Range&... range) {
   return Status::error(StatusCode::kInvalidArgument, "camera: ", what, " is ", value, ", not ",
-                       range);
+                       range...);
 }
 
-Status check_numbers(const Camera& camera) {
+/// The raster works on grids of fewer pixels along each side.
+constexpr std::uint32_t kGridLimit = 1 << 17;
+
+Status check_numbers(const Camera& camera, std::uint32_t samples) {
   if (!is_finite(camera.position) || !is_finite(camera.target) || !is_finite(camera.up))
     return refuse("position, target and up must be finite numbers");
   const double field = camera.vertical_field_of_view;
   if (!(field > 0 && field < 180))
-    return refuse("the vertical field of view", field, "between 0 and 180 degrees");
+    return refuse_value("the vertical field of view", field, "between 0 and 180 degrees");
+  const std::uint32_t most = std::min(Camera::kMaxSize, (kGridLimit - 1) / samples);
   for (const auto& [what, size] :
        {std::pair{"the width", camera.width}, std::pair{"the height", camera.height}})
-    if (size < 1 || size > Camera::kMaxSize)
-      return refuse(what, size, "1 to 16384 pixels");
+    if (size < 1 || size > most)
+      return refuse_value(what, size, "1 to ", most, " pixels");
   return {};
 }
 
@@ -115,7 +121,8 @@ Stand fitted_stand(const PatchSet& patches) {
 } // namespace
 
 Status camera_view(const Camera& camera, std::uint32_t samples, CameraView* out) {
-  HC_TRY(check_numbers(camera));
+  HC_ASSERT(samples >= 1 && samples <= kMaxSamples);
+  HC_TRY(check_numbers(camera, samples));
   CameraView result;
   result.view.eye = camera.position;
   result.view.above_horizon = false;

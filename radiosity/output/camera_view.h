@@ -13,7 +13,9 @@ struct CameraView {
   raster::PixelGrid grid; ///< for Face::kTop
 };
 
-/// @param samples  pixels of the grid along each side of a pixel of the picture
+inline constexpr std::uint32_t kMaxSamples = 8;
+
+/// @param samples  pixels of the grid along each side of a pixel of the picture, 1..kMaxSamples
 /// @return kInvalidArgument for a camera that shows nothing: position and target equal, up along
 /// the
 ///         view, field of view or size out of range, numbers not finite

@@ -8,7 +8,7 @@
 namespace hemicube::radiosity {
 
 /// How the bands of a scene become red, green and blue: the bands r, g and b where a scene has all
-/// three; otherwise grey, the mean of all bands.
+/// three; otherwise grey, the mean of all bands. Or grey, one band alone.
 class DisplayBands {
 public:
   explicit DisplayBands(const NameTable& bands) noexcept
@@ -16,6 +16,9 @@ public:
     is_grey_ = rgb_[0] == NameTable::kAbsent || rgb_[1] == NameTable::kAbsent ||
                rgb_[2] == NameTable::kAbsent;
   }
+
+  DisplayBands(const NameTable& bands, std::uint32_t band) noexcept
+      : count_(bands.size()), rgb_{band, band, band}, is_grey_(false) {}
 
   /// @param values  [band]
   template <typename Number> Vec3 operator()(const Number* values) const noexcept {

@@ -41,6 +41,22 @@ std::string extension_of(std::string_view name) {
   return extension;
 }
 
+const char* description(Quantity quantity) {
+  switch (quantity) {
+  case Quantity::kRadiance:
+    return "diffuse radiosity; linear radiance B/pi in W/(m^2 sr)";
+  case Quantity::kRadiosity:
+    return "radiosity B in W/m^2, linear";
+  case Quantity::kIrradiance:
+    return "irradiance H in W/m^2, linear; what is not known is 0";
+  case Quantity::kExitance:
+    return "exitance E in W/m^2, linear";
+  case Quantity::kError:
+    return "variation of B inside a patch over the mean of B - E, linear";
+  }
+  return "";
+}
+
 /// @param pixels  floats or bytes, [height][width][3]
 Status write_image(FileSet* files, std::string_view name, std::uint32_t width, std::uint32_t height,
                    bool is_float, const void* pixels, const char* description) {
@@ -104,7 +120,7 @@ Status write_picture(FileSet* files, std::string_view name, const Picture& pictu
   HC_TRY(kind.status());
   if (kind.value() == ImageKind::kLinear)
     return write_image(files, name, picture.width, picture.height, true, picture.rgb.data(),
-                       "diffuse radiosity; linear radiance B/pi in W/(m^2 sr)");
+                       description(picture.quantity));
   Buffer<std::uint8_t> rgb;
   HC_TRY(tone_map(picture.rgb, exposure, &rgb));
   return write_display_image(files, name, picture.width, picture.height, rgb);

@@ -1,48 +1,52 @@
 #include "radiosity/output/picture.h"
 
 #include "radiosity/elementary.h"
-#include "radiosity/hemicube/five_views.h"
 #include "radiosity/mesh/straight_corners.h"
-#include "radiosity/output/camera_view.h"
 #include "radiosity/output/display_bands.h"
 #include "radiosity/output/interpolation.h"
-#include "raster/rasterizer.h"
+#include "radiosity/output/picture_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hemicube::radiosity {
 namespace {
 
-constexpr std::int32_t kSamples = 3;                               ///< along each side of a pixel
-constexpr std::int32_t kBlock = raster::kMaxWindowSize / kSamples; ///< pixels along a window
+bool is_known(const Vec3& v) {
+  return !std::isnan(v.x + v.y + v.z);
+}
 
 /// What a ray through a sample sees of a patch.
 class Shader {
 public:
-  Shader(const Scene& scene, const PatchSet& patches, const Solution& solution,
-         std::span<const float> corner_radiosity, std::span<const std::uint8_t> is_straight,
+  Shader(const Scene& scene, const PatchSet& patches, const PictureValues& values,
+         std::span<const std::uint8_t> is_straight, const DisplayBands& bands,
          const CameraView& camera)
-      : patches_(patches), solution_(solution), corner_radiosity_(corner_radiosity),
-        is_straight_(is_straight), bands_(scene.bands), camera_(camera) {}
+      : scene_(scene), patches_(patches), values_(values), is_straight_(is_straight), bands_(bands),
+        camera_(camera),
+        divisor_(values.quantity == Quantity::kRadiance ? kPi : 1) {}
 
-  /// Radiance of a patch in a sample of the grid.
-  Vec3 radiance(std::uint32_t patch, std::int32_t x, std::int32_t y) const {
+  /// The value of a patch in a sample of the grid; NaN if it is not known.
+  Vec3 value(std::uint32_t patch, std::int32_t x, std::int32_t y) const {
     const std::uint32_t begin = patches_.corner_offsets[patch];
     const std::uint32_t count = patches_.corner_offsets[patch + 1] - begin;
-    const std::size_t bands = solution_.band_count;
-    if (count > kMaxInterpolatedCorners)
-      return bands_(solution_.radiosity.data() + patch * bands) / kPi;
+    const std::size_t bands = values_.band_count;
+    const Vec3 own = bands_(values_.patch.data() + patch * bands) / divisor_;
+    if (values_.corner.empty() || count > kMaxInterpolatedCorners || !is_known(own))
+      return own;
     double weights[kMaxInterpolatedCorners];
     interpolation_weights(patches_, is_straight_, patch, point(patch, x, y), weights);
     Vec3 sum{0, 0, 0};
     for (std::uint32_t k = 0; k < count; ++k)
-      sum += weights[k] * bands_(corner_radiosity_.data() + (begin + k) * bands);
-    return sum / kPi;
+      sum += weights[k] * bands_(values_.corner.data() + (begin + k) * bands);
+    return is_known(sum) ? sum / divisor_ : own; // a neighbour may not be known
   }
 
   PixelKind kind(std::uint32_t patch) const {
-    for (std::uint32_t band = 0; band < solution_.band_count; ++band)
-      if (solution_.exitance[std::size_t{patch} * solution_.band_count + band] > 0)
+    const std::size_t bands = values_.band_count;
+    const double* exitance = scene_.exitance.data() + patches_.material[patch] * bands;
+    for (std::size_t band = 0; band < bands; ++band)
+      if (exitance[band] > 0)
         return PixelKind::kEmitter;
     return PixelKind::kSurface;
   }
@@ -62,80 +66,80 @@ private:
     return view.eye + glm::dot(normal, to_patch) / away * direction;
   }
 
+  const Scene& scene_;
   const PatchSet& patches_;
-  const Solution& solution_;
-  std::span<const float> corner_radiosity_;
+  const PictureValues& values_;
   std::span<const std::uint8_t> is_straight_;
-  DisplayBands bands_;
+  const DisplayBands& bands_;
   const CameraView& camera_;
+  double divisor_;
 };
 
 /// Fills the pixel at (x, y) of the picture from its samples.
 void shade_pixel(const Shader& shader, const raster::ItemBuffer& buffer, std::int32_t x,
                  std::int32_t y, Picture* picture) {
+  constexpr double kLargest = 3.4e38; // of float: an infinity could not be averaged
+  const auto samples = static_cast<std::int32_t>(picture->samples);
   Vec3 sum{0, 0, 0};
   PixelKind kind = PixelKind::kBackground;
-  for (std::int32_t sy = y * kSamples; sy < (y + 1) * kSamples; ++sy) {
-    for (std::int32_t sx = x * kSamples; sx < (x + 1) * kSamples; ++sx) {
+  std::uint8_t hits = 0;
+  for (std::int32_t sy = y * samples; sy < (y + 1) * samples; ++sy) {
+    for (std::int32_t sx = x * samples; sx < (x + 1) * samples; ++sx) {
       const raster::Item item = buffer.items(sy)[sx - buffer.window().x];
       if (item == raster::kNoItem)
         continue;
       const std::uint32_t patch = raster::item_id(item);
-      sum += shader.radiance(patch, sx, sy);
-      if (sx == x * kSamples + kSamples / 2 && sy == y * kSamples + kSamples / 2)
+      const Vec3 value = shader.value(patch, sx, sy);
+      if (!is_known(value))
+        continue;
+      sum += value;
+      ++hits;
+      if (sx == x * samples + samples / 2 && sy == y * samples + samples / 2)
         kind = shader.kind(patch);
     }
   }
   const std::size_t at = static_cast<std::size_t>(y) * picture->width + static_cast<std::size_t>(x);
   for (int channel = 0; channel < 3; ++channel)
     picture->rgb[at * 3 + static_cast<std::size_t>(channel)] =
-        static_cast<float>(sum[channel] / (kSamples * kSamples));
+        static_cast<float>(std::fmin(sum[channel] / (samples * samples), kLargest));
   picture->kind[at] = kind;
+  picture->hits[at] = hits;
 }
 
-Status init_picture(const Camera& camera, Picture* picture) {
+Status init_picture(const Camera& camera, std::uint32_t samples, Quantity quantity,
+                    Picture* picture) {
   *picture = Picture{};
   picture->width = camera.width;
   picture->height = camera.height;
+  picture->samples = samples;
+  picture->quantity = quantity;
   const std::size_t pixels = std::size_t{camera.width} * camera.height;
   HC_TRY(picture->rgb.resize(pixels * 3));
-  return picture->kind.resize(pixels);
+  HC_TRY(picture->kind.resize(pixels));
+  return picture->hits.resize(pixels);
 }
 
 } // namespace
 
-Status draw_picture(const Scene& scene, const PatchSet& patches, const Solution& solution,
-                    std::span<const float> corner_radiosity, const Camera& camera,
-                    const raster::Kernels& kernels, Picture* picture) {
+Status draw_picture(const Scene& scene, const PatchSet& patches, const PictureValues& values,
+                    const Camera& camera, const PictureSetting& setting, Executor& executor,
+                    Picture* picture) {
   CameraView view;
-  HC_TRY(camera_view(camera, kSamples, &view));
-  HC_TRY(init_picture(camera, picture));
-
-  raster::PolygonTree tree;
-  HC_TRY(tree.build(polygons_of(patches)));
-  raster::Rasterizer rasterizer;
-  HC_TRY(rasterizer.init(tree, kernels));
-  raster::ItemBuffer buffer;
-  HC_TRY(buffer.init());
-  rasterizer.begin(view.view);
-
+  HC_TRY(camera_view(camera, setting.samples, &view));
+  HC_TRY(init_picture(camera, setting.samples, values.quantity, picture));
+  const DisplayBands bands = setting.band == PictureSetting::kAllBands
+                                 ? DisplayBands(scene.bands)
+                                 : DisplayBands(scene.bands, setting.band);
   Buffer<std::uint8_t> is_straight;
   HC_TRY(find_straight_corners(patches, &is_straight));
-  const Shader shader(scene, patches, solution, corner_radiosity, is_straight.span(), view);
-  const auto width = static_cast<std::int32_t>(camera.width);
-  const auto height = static_cast<std::int32_t>(camera.height);
-  for (std::int32_t top = 0; top < height; top += kBlock)
-    for (std::int32_t left = 0; left < width; left += kBlock) {
-      const std::int32_t right = std::min(left + kBlock, width);
-      const std::int32_t bottom = std::min(top + kBlock, height);
-      buffer.begin(
-          {left * kSamples, top * kSamples, (right - left) * kSamples, (bottom - top) * kSamples});
-      rasterizer.draw(raster::Face::kTop, view.grid, &buffer);
-      for (std::int32_t y = top; y < bottom; ++y)
-        for (std::int32_t x = left; x < right; ++x)
-          shade_pixel(shader, buffer, x, y, picture);
-    }
-  return {};
+  const Shader shader(scene, patches, values, is_straight.span(), bands, view);
+  const auto shade = [&](const raster::ItemBuffer& buffer, const PixelBlock& block) {
+    for (std::int32_t y = block.top; y < block.bottom; ++y)
+      for (std::int32_t x = block.left; x < block.right; ++x)
+        shade_pixel(shader, buffer, x, y, picture);
+  };
+  return for_each_picture_block(patches, view, static_cast<std::int32_t>(setting.samples), 0,
+                                setting.kernels, executor, shade);
 }
 
 Result<double> choose_exposure(const Picture& picture, double given) {

@@ -69,13 +69,11 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
 
   Buffer<float> corner_radiosity;
   HC_TRY(vertex_radiosities(patches, solution.radiosity, solution.band_count, &corner_radiosity));
-  Buffer<double> displayed;
-  Buffer<float> corner_display;
-  HC_TRY(displayed_radiosity(solution, &displayed));
-  HC_TRY(vertex_radiosities(patches, displayed, solution.band_count, &corner_display));
+  PictureValues displayed;
+  HC_TRY(displayed_values(patches, solution, &displayed));
+  SerialExecutor serial;
   Picture picture;
-  HC_TRY(draw_picture(scene, patches, solution, corner_display, parts.camera, parts.kernels,
-                      &picture));
+  HC_TRY(draw_picture(scene, patches, displayed, parts.camera, {parts.kernels}, serial, &picture));
   const Result<double> exposure = choose_exposure(picture, parts.exposure);
   HC_TRY(exposure.status());
   HC_TRY(write_meshes(files, parts, corner_radiosity.span(), exposure.value(), note));
@@ -86,14 +84,13 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
 
 } // namespace
 
-Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity) {
-  HC_TRY(radiosity->resize(solution.radiosity.size()));
-  for (std::size_t at = 0; at < radiosity->size(); ++at) {
-    const double ambient =
-        solution.ambient.empty() ? 0 : solution.ambient[at % solution.band_count];
-    (*radiosity)[at] = solution.radiosity[at] + solution.reflectance[at] * ambient;
-  }
-  return {};
+Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values) {
+  *values = {};
+  values->band_count = solution.band_count;
+  HC_TRY(values->patch.assign(solution.radiosity));
+  for (std::size_t at = 0; at < values->patch.size() && !solution.ambient.empty(); ++at)
+    values->patch[at] += solution.reflectance[at] * solution.ambient[at % solution.band_count];
+  return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
 }
 
 Status begin_solution(FileSet* files, const std::string& folder) {

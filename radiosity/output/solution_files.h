@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/output/file_set.h"
+#include "radiosity/output/picture_values.h"
 #include "radiosity/output/report_json.h"
 
 #include <string>
@@ -34,6 +35,6 @@ Status write_solution(FileSet* files, const SolutionParts& parts, std::string* r
 
 /// Radiosity as pictures show it: where light is still unshot, with what the ambient term makes of
 /// it (Cohen et al. 1988). Tables and PLY files never have it.
-Status displayed_radiosity(const Solution& solution, Buffer<double>* radiosity);
+Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values);
 
 } // namespace hemicube::radiosity

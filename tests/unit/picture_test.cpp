@@ -2,7 +2,7 @@
 
 #include "radiosity/elementary.h"
 #include "radiosity/output/camera_view.h"
-#include "radiosity/output/vertex_radiosity.h"
+#include "radiosity/parallel/thread_pool.h"
 #include "tests/unit/output_support.h"
 
 #include <cmath>
@@ -16,14 +16,25 @@ Vec3 direction(const CameraView& view, double x, double y) {
          (view.grid.y0 + y * view.grid.dy) * view.view.axis_y + view.view.axis_z;
 }
 
+PictureValues values_of(const PatchSet& patches, const Solution& solution,
+                        Quantity quantity = Quantity::kRadiance, bool flat = false) {
+  PictureValues values;
+  require(picture_values(patches, solution, quantity, flat, &values));
+  return values;
+}
+
+Picture draw(const Scene& scene, const PatchSet& patches, const PictureValues& values,
+             const Camera& camera, std::uint32_t samples = PictureSetting::kSamples) {
+  SerialExecutor serial;
+  Picture picture;
+  require(draw_picture(scene, patches, values, camera, {raster::best_kernels(), samples}, serial,
+                       &picture));
+  return picture;
+}
+
 Picture draw(const Scene& scene, const PatchSet& patches, const Solution& solution,
              const Camera& camera) {
-  Buffer<float> corners;
-  require(vertex_radiosities(patches, solution.radiosity, solution.band_count, &corners));
-  Picture picture;
-  require(
-      draw_picture(scene, patches, solution, corners, camera, raster::best_kernels(), &picture));
-  return picture;
+  return draw(scene, patches, values_of(patches, solution), camera);
 }
 
 float red(const Picture& picture, std::size_t x, std::size_t y) {
@@ -193,21 +204,167 @@ TEST(Picture, ThreeBandsAreRedGreenAndBlue) {
     EXPECT_NEAR(picture.rgb[i], static_cast<double>(i % 3 + 1) / kPi, 1e-6);
 }
 
-TEST(Picture, IsTheSameForAllKernels) {
+TEST(Picture, IsTheSameForAllKernelsAndThreads) {
   const Scene scene = hemicube::test::cornell_like(8);
   const PatchSet patches = patches_of(scene);
   const Solution solution = solution_with(scene, patches, [&](std::uint32_t p, std::uint32_t band) {
     return 1 + patches.centre[p].x + 0.1 * band;
   });
-  Buffer<float> corners;
-  require(vertex_radiosities(patches, solution.radiosity, solution.band_count, &corners));
-  const Camera camera = fit_camera(patches, 150, 90);
-  Picture scalar, best;
-  require(draw_picture(scene, patches, solution, corners, camera,
-                       *raster::kernels_by_name("scalar"), &scalar));
-  require(draw_picture(scene, patches, solution, corners, camera, raster::best_kernels(), &best));
-  for (std::size_t i = 0; i < scalar.rgb.size(); ++i)
-    ASSERT_EQ(scalar.rgb[i], best.rgb[i]);
+  const PictureValues values = values_of(patches, solution);
+  const Camera camera = fit_camera(patches, 450, 90);
+  SerialExecutor serial;
+  Picture scalar;
+  require(draw_picture(scene, patches, values, camera, {*raster::kernels_by_name("scalar"), 2},
+                       serial, &scalar));
+  for (const std::uint32_t threads : {1u, 2u, 3u, 7u}) {
+    ThreadPool pool;
+    require(pool.init(threads));
+    Picture best;
+    require(draw_picture(scene, patches, values, camera, {raster::best_kernels(), 2}, pool, &best));
+    for (std::size_t i = 0; i < scalar.rgb.size(); ++i)
+      ASSERT_EQ(scalar.rgb[i], best.rgb[i]) << threads;
+    for (std::size_t i = 0; i < scalar.hits.size(); ++i)
+      ASSERT_EQ(scalar.hits[i], best.hits[i]) << threads;
+  }
+}
+
+/// The inside of a cube of edge 2 around the origin, every wall a grid.
+Scene closed_room() {
+  SceneBuilder builder(1);
+  const std::uint32_t grey = builder.material("grey", 0.5, 1);
+  builder.box({grey, grey, grey, grey, grey, grey}, {-1, -1, -1}, {1, 1, 1}, {3, 4, 5}, true);
+  return builder.finish();
+}
+
+// Catches: samples between the windows or along shared edges that show nothing.
+TEST(Picture, AClosedRoomShowsNoBackground) {
+  const Scene scene = closed_room();
+  const PatchSet patches = patches_of(scene);
+  const Solution solution =
+      solution_with(scene, patches, [](std::uint32_t, std::uint32_t) { return 1.0; });
+  Camera camera;
+  camera.position = {0.31, 0.17, 0.53};
+  camera.target = {-1, -1, -0.97};
+  camera.vertical_field_of_view = 110;
+  camera.width = 261;
+  camera.height = 130;
+  for (const std::uint32_t samples : {1u, 2u, 3u, 8u}) {
+    const Picture picture = draw(scene, patches, values_of(patches, solution), camera, samples);
+    for (std::size_t i = 0; i < picture.kind.size(); ++i) {
+      ASSERT_EQ(picture.kind[i], PixelKind::kEmitter) << samples;
+      ASSERT_EQ(picture.hits[i], samples * samples);
+      ASSERT_NEAR(picture.rgb[3 * i], 1.5 / kPi, 1e-6);
+    }
+  }
+}
+
+// Catches: samples off the pixel's area, or weighted by anything.
+TEST(Picture, TheSamplesOfAPixelAreAveraged) {
+  SceneBuilder builder(1);
+  const std::uint32_t light = builder.material("light", 0, kPi);
+  // Covers the left 5/8 of the middle column of pixels.
+  builder.face(light, {{-9, -9, -1}, {0.125 / 3, -9, -1}, {0.125 / 3, 9, -1}, {-9, 9, -1}});
+  const Scene scene = builder.finish();
+  const PatchSet patches = patches_of(scene);
+  const Solution solution =
+      solution_with(scene, patches, [](std::uint32_t, std::uint32_t) { return 0.0; });
+  Camera camera;
+  camera.vertical_field_of_view = 53.13010235415598; // a picture of 1 x 1 at distance 1
+  camera.width = camera.height = 3;
+  const double expected[] = {0, 1, 0.5, 2 / 3., 0.5, 0.6, 4 / 6., 4 / 7., 0.625};
+  for (std::uint32_t samples = 1; samples <= kMaxSamples; ++samples) {
+    const Picture picture = draw(scene, patches, values_of(patches, solution), camera, samples);
+    EXPECT_NEAR(red(picture, 0, 1), 1, 1e-6);
+    EXPECT_NEAR(red(picture, 1, 1), expected[samples], 1e-6) << samples;
+    EXPECT_EQ(red(picture, 2, 1), 0);
+  }
+}
+
+// Catches: a grid beyond what the rasterizer takes, drawn all the same.
+TEST(Picture, TheLargestPicturesTakeFewerSamples) {
+  Camera camera;
+  camera.width = Camera::kMaxSize;
+  CameraView view;
+  require(camera_view(camera, 7, &view));
+  const Status status = camera_view(camera, 8, &view);
+  EXPECT_EQ(status.message(), "camera: the width is 16384, not 1 to 16383 pixels");
+}
+
+/// A floor of 4 x 1 squares with irradiance 1, 2, 3, 4 seen from above, one pixel a square.
+struct FloorPicture {
+  FloorPicture() {
+    SceneBuilder builder(1);
+    builder.grid(builder.material("grey", 0.5, 0.25), {-2, -0.5, -1}, {2, -0.5, -1}, {2, 0.5, -1},
+                 {-2, 0.5, -1}, 4, 1);
+    scene = builder.finish();
+    patches = patches_of(scene);
+    solution = solution_with(scene, patches, [&](std::uint32_t patch, std::uint32_t) {
+      return patches.centre[patch].x + 2.5;
+    });
+    camera.vertical_field_of_view = 53.13010235415598;
+    camera.width = 4;
+    camera.height = 1;
+  }
+  Picture of(Quantity quantity, bool flat) const {
+    return draw(scene, patches, values_of(patches, solution, quantity, flat), camera);
+  }
+
+  Scene scene;
+  PatchSet patches;
+  Solution solution;
+  Camera camera;
+};
+
+// Catches: the wrong column of the solution, a quantity divided by pi that is not to be.
+TEST(Quantity, EachIsWhatThePatchesHave) {
+  const FloorPicture floor;
+  for (std::size_t x = 0; x < 4; ++x) {
+    const double h = static_cast<double>(x) + 1;
+    EXPECT_NEAR(red(floor.of(Quantity::kIrradiance, true), x, 0), h, 1e-6);
+    EXPECT_NEAR(red(floor.of(Quantity::kRadiosity, true), x, 0), 0.25 + 0.5 * h, 1e-6);
+    EXPECT_NEAR(red(floor.of(Quantity::kRadiance, true), x, 0), (0.25 + 0.5 * h) / kPi, 1e-6);
+    EXPECT_NEAR(red(floor.of(Quantity::kExitance, false), x, 0), 0.25, 1e-6);
+  }
+}
+
+// Catches: --flat without effect, irradiance that is never reconstructed.
+TEST(Quantity, FlatShowsOneValueAPatch) {
+  FloorPicture floor;
+  floor.camera.width = 8;
+  floor.camera.height = 2;
+  const Picture flat = floor.of(Quantity::kIrradiance, true);
+  const Picture smooth = floor.of(Quantity::kIrradiance, false);
+  for (std::size_t x = 0; x < 8; x += 2) {
+    EXPECT_EQ(red(flat, x, 0), red(flat, x + 1, 0));
+    EXPECT_LT(red(smooth, x, 0), red(smooth, x + 1, 0) - 0.1);
+  }
+}
+
+// Catches: a mean that counts emitted light, a difference to the wrong patch, NaN without light.
+TEST(Quantity, TheErrorIsTheVariationInsideAPatchOverTheMeanReflected) {
+  FloorPicture floor;
+  const PictureValues error = values_of(floor.patches, floor.solution, Quantity::kError);
+  // B runs from 0.75 to 2.25 in steps of 0.5; corners between patches hold the mean of the two.
+  for (std::size_t patch = 0; patch < 4; ++patch)
+    EXPECT_NEAR(error.patch[patch], 0.25 / 1.25, 1e-6);
+  EXPECT_TRUE(error.corner.empty());
+  floor.solution.radiosity.fill(0.25);
+  for (const double value : values_of(floor.patches, floor.solution, Quantity::kError).patch)
+    EXPECT_EQ(value, 0);
+}
+
+// Catches: NaN in a picture, or spread to a neighbour whose value is known.
+TEST(Quantity, WhatIsNotKnownIsBackground) {
+  FloorPicture floor;
+  floor.solution.irradiance[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(unknown_count(values_of(floor.patches, floor.solution, Quantity::kIrradiance)), 1u);
+  EXPECT_EQ(unknown_count(values_of(floor.patches, floor.solution, Quantity::kRadiance)), 0u);
+  const Picture picture = floor.of(Quantity::kIrradiance, false);
+  EXPECT_EQ(picture.kind[1], PixelKind::kBackground);
+  EXPECT_EQ(picture.hits[1], 0);
+  EXPECT_EQ(red(picture, 1, 0), 0);
+  for (const std::size_t x : {0, 2, 3})
+    EXPECT_GT(red(picture, x, 0), 0.9) << x;
 }
 
 TEST(Exposure, PutsTheBrightSurfacesNearWhiteAndIgnoresEmitters) {

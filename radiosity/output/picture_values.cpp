@@ -1,0 +1,73 @@
+#include "radiosity/output/picture_values.h"
+
+#include "radiosity/output/vertex_radiosity.h"
+
+#include <cmath>
+
+namespace hemicube::radiosity {
+namespace {
+
+/// The area-weighted mean of B - E in a band.
+double mean_reflected(const PatchSet& patches, const Solution& solution, std::uint32_t band) {
+  double light = 0, area = 0;
+  for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch) {
+    const std::size_t at = std::size_t{patch} * solution.band_count + band;
+    light += patches.area[patch] * (solution.radiosity[at] - solution.exitance[at]);
+    area += patches.area[patch];
+  }
+  return light / area;
+}
+
+Status error_values(const PatchSet& patches, const Solution& solution, Buffer<double>* error) {
+  const std::uint32_t bands = solution.band_count;
+  Buffer<float> corner;
+  HC_TRY(vertex_radiosities(patches, solution.radiosity, bands, &corner));
+  error->clear();
+  HC_TRY(error->resize(solution.radiosity.size()));
+  for (std::uint32_t band = 0; band < bands; ++band) {
+    const double mean = mean_reflected(patches, solution, band);
+    if (!(mean > 0))
+      continue;
+    for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch) {
+      const std::size_t at = std::size_t{patch} * bands + band;
+      double largest = 0;
+      for (std::size_t k = patches.corner_offsets[patch]; k < patches.corner_offsets[patch + 1];
+           ++k)
+        largest = std::fmax(largest, std::fabs(static_cast<double>(corner[k * bands + band]) -
+                                               solution.radiosity[at]));
+      (*error)[at] = largest / mean;
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+Status picture_values(const PatchSet& patches, const Solution& solution, Quantity quantity,
+                      bool flat, PictureValues* values) {
+  values->quantity = quantity;
+  values->band_count = solution.band_count;
+  values->corner.clear();
+  if (quantity == Quantity::kError)
+    return error_values(patches, solution, &values->patch);
+  if (quantity == Quantity::kExitance)
+    return values->patch.assign(solution.exitance);
+  HC_TRY(values->patch.assign(quantity == Quantity::kIrradiance ? solution.irradiance
+                                                                : solution.radiosity));
+  if (flat)
+    return {};
+  return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
+}
+
+std::uint32_t unknown_count(const PictureValues& values) noexcept {
+  std::uint32_t count = 0;
+  for (std::size_t first = 0; first < values.patch.size(); first += values.band_count) {
+    bool known = true;
+    for (std::uint32_t band = 0; band < values.band_count; ++band)
+      known = known && !std::isnan(values.patch[first + band]);
+    count += known ? 0 : 1;
+  }
+  return count;
+}
+
+} // namespace hemicube::radiosity
