@@ -45,7 +45,39 @@ TwoPart arctangent_to_one(double x) {
   return {base.high, base.low + (series_beyond_linear(t) + t)};
 }
 
+/// Cosine and sine of 0 <= x <= pi/4: Taylor, the first term left out is below 2^-58.
+Turn turn_by(double x) {
+  const double u = x * x;
+  double cosine = 0, sine = 0;
+  for (int k = 16; k >= 2; k -= 2) {
+    cosine = (1 + cosine) * (-u / ((k - 1) * k));
+    sine = (1 + sine) * (-u / (k * (k + 1)));
+  }
+  return {1 + cosine, x + x * sine};
+}
+
 } // namespace
+
+Turn turn_of(std::uint32_t numerator, std::uint32_t denominator) noexcept {
+  // Whole eighths of a turn, and what is left of the next one.
+  const std::uint64_t n = denominator, eighths = 8 * std::uint64_t{numerator % denominator};
+  const std::uint64_t octant = eighths / n;
+  const std::uint64_t rest = octant % 2 == 0 ? eighths % n : n - eighths % n;
+  const double part = static_cast<double>(rest) / static_cast<double>(n);
+  const Turn small = turn_by(part * (kHalfPi.high / 2));
+  const Turn first = // within the quarter, counted from its nearer axis
+      octant % 2 == 0 ? small : Turn{small.sine, small.cosine};
+  switch (octant / 2) {
+  case 0:
+    return first;
+  case 1:
+    return {-first.sine, first.cosine};
+  case 2:
+    return {-first.cosine, -first.sine};
+  default:
+    return {first.sine, -first.cosine};
+  }
+}
 
 double arctangent(double x) noexcept {
   if (!(x <= 1 && x >= -1)) {

@@ -15,6 +15,14 @@ inline constexpr double kPi = 3.14159265358979323846;
 /// libm of each system rounds differently, this does not. NaN gives NaN.
 double arctangent(double x) noexcept;
 
+struct Turn {
+  double cosine, sine;
+};
+
+/// Cosine and sine of numerator / denominator of a full turn, each within 2^-52 of the exact one,
+/// and exact at multiples of a quarter. denominator > 0.
+Turn turn_of(std::uint32_t numerator, std::uint32_t denominator) noexcept;
+
 namespace detail {
 
 // arctan(k/4), k = 0..4, in two parts.

@@ -100,5 +100,27 @@ TEST(Elementary, ArctangentOfTwoOnTheAxes) {
   EXPECT_EQ(arctangent2(1e-300, -1e300), pi);
 }
 
+// Catches: a wrong octant or sign, a series too short, axes missed by a rounding.
+TEST(Elementary, TurnsAreWithinTheirBound) {
+  const long double full = 2 * std::numbers::pi_v<long double>;
+  const auto check = [&](std::uint32_t k, std::uint32_t n) {
+    const radiosity::Turn turn = radiosity::turn_of(k, n);
+    const long double angle = full * (k % n) / n;
+    ASSERT_LE(std::fabs(turn.cosine - std::cos(angle)), 0x1p-52L) << k << " of " << n;
+    ASSERT_LE(std::fabs(turn.sine - std::sin(angle)), 0x1p-52L) << k << " of " << n;
+  };
+  for (std::uint32_t n = 1; n <= 400; ++n)
+    for (std::uint32_t k = 0; k <= n + 1; ++k)
+      check(k, n);
+  Random random(13);
+  for (int i = 0; i < 20000; ++i)
+    check(static_cast<std::uint32_t>(random.index(4294967295u)), 4294967295u);
+  for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+    const radiosity::Turn turn = radiosity::turn_of(quarter, 4);
+    EXPECT_EQ(turn.cosine, quarter == 0 ? 1 : quarter == 2 ? -1 : 0);
+    EXPECT_EQ(turn.sine, quarter == 1 ? 1 : quarter == 3 ? -1 : 0);
+  }
+}
+
 } // namespace
 } // namespace hemicube::test
