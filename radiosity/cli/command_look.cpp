@@ -70,7 +70,7 @@ Status draw(const Session& session, std::uint32_t patch) {
   HC_TRY(weights.init(options.resolution));
   ColorImage image;
   HC_TRY(draw_look(hemicube, weights, &image));
-  HC_TRY(write_display_image(&files, name, image.width, image.height, image.rgb));
+  HC_TRY(write_display_image(&files, name, image));
   return files.commit();
 }
 

@@ -11,7 +11,7 @@
 namespace {
 
 /// Returns an empty string, or what went wrong.
-std::string encode(const char* name, int width, int height, int channels, bool is_float,
+std::string encode(const char* name, int width, int height, int channels, HemicubePixels kind,
                    const void* pixels, const char* description, std::vector<unsigned char>* bytes) {
   OIIO::attribute("threads", 1);
   const auto output = OIIO::ImageOutput::create(name);
@@ -19,12 +19,17 @@ std::string encode(const char* name, int width, int height, int channels, bool i
     return OIIO::geterror();
   if (!output->supports("ioproxy"))
     return "this format cannot be encoded in memory; use .png or .exr";
-  const OIIO::TypeDesc type = is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+  const OIIO::TypeDesc type = kind == kHemicubeBytes    ? OIIO::TypeDesc::UINT8
+                              : kind == kHemicubeFloats ? OIIO::TypeDesc::FLOAT
+                                                        : OIIO::TypeDesc::UINT32;
   OIIO::ImageSpec spec(width, height, channels, type);
   spec.attribute("DateTime", "2000:01:01 00:00:00"); // the same picture gives the same file
   spec.attribute("Software", "hemicube");
   spec.attribute("ImageDescription", description);
-  spec.attribute("oiio:ColorSpace", is_float ? "Linear" : "sRGB");
+  if (kind == kHemicubeIds)
+    spec.channelnames = {"id"};
+  else
+    spec.attribute("oiio:ColorSpace", kind == kHemicubeFloats ? "Linear" : "sRGB");
   OIIO::Filesystem::IOVecOutput memory(*bytes);
   if (!output->set_ioproxy(&memory) || !output->open(name, spec) ||
       !output->write_image(type, pixels) || !output->close())
@@ -34,13 +39,14 @@ std::string encode(const char* name, int width, int height, int channels, bool i
 
 } // namespace
 
-int hemicube_encode_image(const char* name, int width, int height, int channels, int is_float,
-                          const void* pixels, const char* description, HemicubeImageSink sink,
-                          void* context, char* error, std::size_t error_size) {
+int hemicube_encode_image(const char* name, int width, int height, int channels,
+                          HemicubePixels kind, const void* pixels, const char* description,
+                          HemicubeImageSink sink, void* context, char* error,
+                          std::size_t error_size) {
   try {
     std::vector<unsigned char> bytes;
     const std::string message =
-        encode(name, width, height, channels, is_float != 0, pixels, description, &bytes);
+        encode(name, width, height, channels, kind, pixels, description, &bytes);
     if (message.empty()) {
       sink(context, bytes.data(), bytes.size());
       return 0;

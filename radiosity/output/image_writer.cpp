@@ -57,9 +57,9 @@ const char* description(Quantity quantity) {
   return "";
 }
 
-/// @param pixels  floats or bytes, [height][width][3]
+/// @param pixels  of a kind, [height][width][3]; ids [height][width]
 Status write_image(FileSet* files, std::string_view name, std::uint32_t width, std::uint32_t height,
-                   bool is_float, const void* pixels, const char* description) {
+                   HemicubePixels kind, const void* pixels, const char* description) {
   HC_TRY(load_image_plugin());
   std::array<char, 256> error{};
   std::string bytes;
@@ -67,8 +67,8 @@ Status write_image(FileSet* files, std::string_view name, std::uint32_t width, s
     static_cast<std::string*>(context)->assign(static_cast<const char*>(data), size);
   };
   if (g_encode_image(std::string(name).c_str(), static_cast<int>(width), static_cast<int>(height),
-                     3, is_float ? 1 : 0, pixels, description, take, &bytes, error.data(),
-                     error.size()) == 0)
+                     kind == kHemicubeIds ? 1 : 3, kind, pixels, description, take, &bytes,
+                     error.data(), error.size()) == 0)
     return files->add(name, bytes);
   return Status::error(StatusCode::kIo, files->shown_path(name),
                        ": cannot be written: ", error.data());
@@ -119,21 +119,38 @@ Status write_picture(FileSet* files, std::string_view name, const Picture& pictu
   const Result<ImageKind> kind = image_kind(name);
   HC_TRY(kind.status());
   if (kind.value() == ImageKind::kLinear)
-    return write_image(files, name, picture.width, picture.height, true, picture.rgb.data(),
-                       description(picture.quantity));
-  Buffer<std::uint8_t> rgb;
-  HC_TRY(tone_map(picture.rgb, exposure, &rgb));
-  return write_display_image(files, name, picture.width, picture.height, rgb);
+    return write_image(files, name, picture.width, picture.height, kHemicubeFloats,
+                       picture.rgb.data(), description(picture.quantity));
+  ColorImage image;
+  HC_TRY(tone_image(picture, {exposure}, &image));
+  return write_display_image(files, name, image);
 }
 
-Status write_display_image(FileSet* files, std::string_view name, std::uint32_t width,
-                           std::uint32_t height, std::span<const std::uint8_t> rgb) {
+Status tone_image(const Picture& picture, const Tone& tone, ColorImage* image) {
+  image->width = picture.width;
+  image->height = picture.height;
+  return tone_map(picture.rgb, tone, &image->rgb);
+}
+
+Status write_display_image(FileSet* files, std::string_view name, const ColorImage& image) {
   const Result<ImageKind> kind = image_kind(name);
   HC_TRY(kind.status());
   if (kind.value() != ImageKind::kDisplay)
     return Status::error(StatusCode::kInvalidArgument, name,
                          ": this picture holds display colours; use .png");
-  return write_image(files, name, width, height, false, rgb.data(), "display colours, sRGB");
+  return write_image(files, name, image.width, image.height, kHemicubeBytes, image.rgb.data(),
+                     "display colours, sRGB");
+}
+
+Status write_patch_ids(FileSet* files, std::string_view name, const PatchIdPicture& picture) {
+  const Result<ImageKind> kind = image_kind(name);
+  HC_TRY(kind.status());
+  if (kind.value() == ImageKind::kLinear)
+    return write_image(files, name, picture.width, picture.height, kHemicubeIds, picture.ids.data(),
+                       "numbers of patches; background 4294967295");
+  ColorImage image;
+  HC_TRY(patch_id_image(picture, &image));
+  return write_display_image(files, name, image);
 }
 
 } // namespace hemicube::radiosity

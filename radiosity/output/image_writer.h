@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/output/file_set.h"
+#include "radiosity/output/patch_id_picture.h"
 #include "radiosity/output/picture.h"
 
 #include <span>
@@ -31,8 +32,15 @@ Status load_image_plugin_from(const std::vector<std::string>& paths);
 Status write_picture(FileSet* files, std::string_view name, const Picture& picture,
                      double exposure);
 
-/// Writes 8-bit display colours, [height][width][3].
-Status write_display_image(FileSet* files, std::string_view name, std::uint32_t width,
-                           std::uint32_t height, std::span<const std::uint8_t> rgb);
+/// A picture in display colours.
+/// @return kOutOfMemory
+Status tone_image(const Picture& picture, const Tone& tone, ColorImage* image);
+
+/// Writes display colours.
+Status write_display_image(FileSet* files, std::string_view name, const ColorImage& image);
+
+/// Writes which patches are seen: into a display format by their colours, into .exr the numbers, a
+/// 32-bit channel "id".
+Status write_patch_ids(FileSet* files, std::string_view name, const PatchIdPicture& picture);
 
 } // namespace hemicube::radiosity

@@ -10,8 +10,6 @@
 namespace hemicube::radiosity {
 namespace {
 
-using Color = std::array<std::uint8_t, 3>;
-
 constexpr std::uint32_t kPanels = 3;
 constexpr std::uint32_t kGap = 16; ///< pixels between and around the panels
 constexpr std::uint8_t kPaper = 40;
@@ -110,10 +108,7 @@ Status draw_look(const HemicubeImage& hemicube, const DeltaFormFactors& weights,
                  ColorImage* image) {
   HC_ASSERT(hemicube.resolution == weights.resolution());
   const std::uint32_t side = 2 * hemicube.resolution;
-  image->width = kPanels * (side + kGap) + kGap;
-  image->height = side + 2 * kGap;
-  image->rgb.clear();
-  HC_TRY(image->rgb.resize(std::size_t{image->width} * image->height * 3, kPaper));
+  HC_TRY(image->init(kPanels * (side + kGap) + kGap, side + 2 * kGap, kPaper));
   const Look look(hemicube, weights);
   for (std::uint32_t row = 0; row < side; ++row)
     for (std::uint32_t column = 0; column < side; ++column) {
@@ -121,24 +116,22 @@ Status draw_look(const HemicubeImage& hemicube, const DeltaFormFactors& weights,
       if (!pixel.is_inside)
         continue;
       for (std::uint32_t panel = 0; panel < kPanels; ++panel) {
-        const Color color = look.color(panel, pixel);
         const std::size_t x = kGap + panel * (side + kGap) + column;
-        std::copy(color.begin(), color.end(),
-                  image->rgb.data() + ((kGap + row) * std::size_t{image->width} + x) * 3);
+        image->set(x, kGap + row, look.color(panel, pixel));
       }
     }
   return {};
 }
 
-std::array<std::uint8_t, 3> item_color(std::uint32_t id) noexcept {
-  std::uint32_t hash = id + 1;
-  hash = (hash ^ (hash >> 16)) * 0x7feb352du;
-  hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
-  hash ^= hash >> 16;
-  const auto channel = [hash](int shift) {
-    return static_cast<std::uint8_t>(80 + (hash >> shift & 0xff) * 175 / 255);
-  };
-  return {channel(0), channel(8), channel(16)};
+Color item_color(std::uint32_t id) noexcept {
+  // Numbers of three digits in base 176, the levels of a channel, in the order of the golden ratio:
+  // one step leads far away, and none leads back before all were taken.
+  constexpr std::uint64_t kLevels = 176, kColors = kLevels * kLevels * kLevels, kStep = 3369383;
+  const std::uint64_t number = (std::uint64_t{id} + 1) * kStep % kColors;
+  constexpr std::uint64_t kDarkest = 256 - kLevels;
+  return {static_cast<std::uint8_t>(kDarkest + number / (kLevels * kLevels)),
+          static_cast<std::uint8_t>(kDarkest + number / kLevels % kLevels),
+          static_cast<std::uint8_t>(kDarkest + number % kLevels)};
 }
 
 } // namespace hemicube::radiosity

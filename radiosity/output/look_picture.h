@@ -2,6 +2,7 @@
 
 #include "radiosity/hemicube/delta_form_factors.h"
 #include "radiosity/mesh/patch_set.h"
+#include "radiosity/output/color_image.h"
 #include "raster/simd/dispatch.h"
 #include "raster/types.h"
 
@@ -22,12 +23,6 @@ struct HemicubeImage {
   std::array<FaceImage, raster::kFaceCount> faces;
 };
 
-/// An image of 8-bit display colours.
-struct ColorImage {
-  std::uint32_t width = 0, height = 0;
-  Buffer<std::uint8_t> rgb; ///< [height][width][3]
-};
-
 /// Renders the hemicube of a patch.
 /// @param resolution  even, kMinResolution..kMaxResolution
 /// @return kInvalidArgument, kOutOfMemory
@@ -41,7 +36,7 @@ Status render_hemicube(const PatchSet& patches, std::uint32_t patch, std::uint32
 /// @return kOutOfMemory
 Status draw_look(const HemicubeImage& hemicube, const DeltaFormFactors& weights, ColorImage* image);
 
-/// The colour of an item: a fixed hash of its id, never dark.
-std::array<std::uint8_t, 3> item_color(std::uint32_t id) noexcept;
+/// The colour of an item: by its id alone, never dark, different for the first 5 million ids.
+Color item_color(std::uint32_t id) noexcept;
 
 } // namespace hemicube::radiosity

@@ -4,6 +4,7 @@
 #include "radiosity/mesh/straight_corners.h"
 #include "radiosity/output/display_bands.h"
 #include "radiosity/output/interpolation.h"
+#include "radiosity/output/mesh_lines.h"
 #include "radiosity/output/picture_blocks.h"
 
 #include <algorithm>
@@ -75,9 +76,9 @@ private:
   double divisor_;
 };
 
-/// Fills the pixel at (x, y) of the picture from its samples.
-void shade_pixel(const Shader& shader, const raster::ItemBuffer& buffer, std::int32_t x,
-                 std::int32_t y, Picture* picture) {
+/// Fills the pixel at (x, y) of the picture from its samples, and returns its number.
+std::size_t shade_pixel(const Shader& shader, const raster::ItemBuffer& buffer, std::int32_t x,
+                        std::int32_t y, Picture* picture) {
   constexpr double kLargest = 3.4e38; // of float: an infinity could not be averaged
   const auto samples = static_cast<std::int32_t>(picture->samples);
   Vec3 sum{0, 0, 0};
@@ -104,6 +105,7 @@ void shade_pixel(const Shader& shader, const raster::ItemBuffer& buffer, std::in
         static_cast<float>(std::fmin(sum[channel] / (samples * samples), kLargest));
   picture->kind[at] = kind;
   picture->hits[at] = hits;
+  return at;
 }
 
 Status init_picture(const Camera& camera, std::uint32_t samples, Quantity quantity,
@@ -133,36 +135,61 @@ Status draw_picture(const Scene& scene, const PatchSet& patches, const PictureVa
   Buffer<std::uint8_t> is_straight;
   HC_TRY(find_straight_corners(patches, &is_straight));
   const Shader shader(scene, patches, values, is_straight.span(), bands, view);
+  const MeshLines mesh(setting.samples, view.grid.width, view.grid.height);
+  const std::int32_t margin = setting.mesh ? MeshLines::margin(setting.samples) : 0;
+  if (setting.mesh)
+    HC_TRY(picture->lines.resize(picture->hits.size()));
   const auto shade = [&](const raster::ItemBuffer& buffer, const PixelBlock& block) {
     for (std::int32_t y = block.top; y < block.bottom; ++y)
-      for (std::int32_t x = block.left; x < block.right; ++x)
-        shade_pixel(shader, buffer, x, y, picture);
+      for (std::int32_t x = block.left; x < block.right; ++x) {
+        const std::size_t at = shade_pixel(shader, buffer, x, y, picture);
+        if (setting.mesh)
+          picture->lines[at] = mesh.count(buffer, x, y);
+      }
   };
-  return for_each_picture_block(patches, view, static_cast<std::int32_t>(setting.samples), 0,
+  return for_each_picture_block(patches, view, static_cast<std::int32_t>(setting.samples), margin,
                                 setting.kernels, executor, shade);
+}
+
+double luminance_at(const Picture& picture, std::size_t pixel) noexcept {
+  const float* rgb = picture.rgb.data() + 3 * pixel;
+  return luminance(static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
+                   static_cast<double>(rgb[2]));
+}
+
+double brightest(const Picture& picture) noexcept {
+  double largest = 0;
+  for (std::size_t i = 0; i < picture.kind.size(); ++i)
+    largest = std::fmax(largest, luminance_at(picture, i));
+  return largest > 0 ? largest : 1;
+}
+
+Status lit_pixels(const Picture& picture, Buffer<double>* luminances) {
+  luminances->clear();
+  for (const PixelKind kind : {PixelKind::kSurface, PixelKind::kEmitter}) {
+    for (std::size_t i = 0; i < picture.kind.size(); ++i)
+      if (const double light = luminance_at(picture, i); picture.kind[i] == kind && light > 0)
+        HC_TRY(luminances->push_back(light));
+    if (!luminances->empty())
+      break;
+  }
+  return {};
+}
+
+double quantile(Buffer<double>* values, double share) noexcept {
+  // The value of this rank is the same whatever the order of equal ones.
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values->size() - 1));
+  std::nth_element(values->begin(), values->begin() + rank, values->end());
+  return (*values)[rank];
 }
 
 Result<double> choose_exposure(const Picture& picture, double given) {
   if (given != 0)
     return given;
   constexpr double kQuantile = 0.95, kShownAs = 0.8;
-  for (const PixelKind kind : {PixelKind::kSurface, PixelKind::kEmitter}) {
-    Buffer<double> lit;
-    for (std::size_t i = 0; i < picture.kind.size(); ++i) {
-      const float* rgb = picture.rgb.data() + 3 * i;
-      const double light = luminance(static_cast<double>(rgb[0]), static_cast<double>(rgb[1]),
-                                     static_cast<double>(rgb[2]));
-      if (picture.kind[i] == kind && light > 0)
-        HC_TRY(lit.push_back(light));
-    }
-    if (lit.empty())
-      continue;
-    // The value of this rank is the same whatever the order of equal ones.
-    const auto rank = static_cast<std::size_t>(kQuantile * static_cast<double>(lit.size() - 1));
-    std::nth_element(lit.begin(), lit.begin() + rank, lit.end());
-    return kShownAs / lit[rank];
-  }
-  return 1.0;
+  Buffer<double> lit;
+  HC_TRY(lit_pixels(picture, &lit));
+  return lit.empty() ? 1.0 : kShownAs / quantile(&lit, kQuantile);
 }
 
 } // namespace hemicube::radiosity

@@ -37,11 +37,21 @@ std::uint8_t SrgbEncoder::operator()(double linear) const noexcept {
                                    thresholds_);
 }
 
-Status tone_map(std::span<const float> linear, double exposure, Buffer<std::uint8_t>* out) {
+Status tone_map(std::span<const float> linear, const Tone& tone, Buffer<std::uint8_t>* out) {
   const SrgbEncoder encode;
   HC_TRY(out->resize(linear.size()));
-  for (std::size_t i = 0; i < linear.size(); ++i)
-    (*out)[i] = encode(exposure * static_cast<double>(linear[i]));
+  const double white = tone.exposure * tone.white;
+  for (std::size_t i = 0; i < linear.size(); i += 3) {
+    const double rgb[] = {static_cast<double>(linear[i]), static_cast<double>(linear[i + 1]),
+                          static_cast<double>(linear[i + 2])};
+    double gain = tone.exposure;
+    if (tone.curve == ToneCurve::kReinhard) {
+      const double y = tone.exposure * luminance(rgb[0], rgb[1], rgb[2]);
+      gain *= (1 + y / white / white) / (1 + y);
+    }
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      (*out)[i + channel] = encode(gain * rgb[channel]);
+  }
   return {};
 }
 

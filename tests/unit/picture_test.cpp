@@ -1,9 +1,7 @@
-#include "radiosity/output/picture.h"
-
 #include "radiosity/elementary.h"
 #include "radiosity/output/camera_view.h"
 #include "radiosity/parallel/thread_pool.h"
-#include "tests/unit/output_support.h"
+#include "tests/unit/picture_support.h"
 
 #include <cmath>
 
@@ -14,31 +12,6 @@ namespace {
 Vec3 direction(const CameraView& view, double x, double y) {
   return (view.grid.x0 + x * view.grid.dx) * view.view.axis_x +
          (view.grid.y0 + y * view.grid.dy) * view.view.axis_y + view.view.axis_z;
-}
-
-PictureValues values_of(const PatchSet& patches, const Solution& solution,
-                        Quantity quantity = Quantity::kRadiance, bool flat = false) {
-  PictureValues values;
-  require(picture_values(patches, solution, quantity, flat, &values));
-  return values;
-}
-
-Picture draw(const Scene& scene, const PatchSet& patches, const PictureValues& values,
-             const Camera& camera, std::uint32_t samples = PictureSetting::kSamples) {
-  SerialExecutor serial;
-  Picture picture;
-  require(draw_picture(scene, patches, values, camera, {raster::best_kernels(), samples}, serial,
-                       &picture));
-  return picture;
-}
-
-Picture draw(const Scene& scene, const PatchSet& patches, const Solution& solution,
-             const Camera& camera) {
-  return draw(scene, patches, values_of(patches, solution), camera);
-}
-
-float red(const Picture& picture, std::size_t x, std::size_t y) {
-  return picture.rgb[3 * (y * picture.width + x)];
 }
 
 TEST(CameraView, IsNeitherMirroredNorUpsideDown) {
@@ -288,83 +261,6 @@ TEST(Picture, TheLargestPicturesTakeFewerSamples) {
   require(camera_view(camera, 7, &view));
   const Status status = camera_view(camera, 8, &view);
   EXPECT_EQ(status.message(), "camera: the width is 16384, not 1 to 16383 pixels");
-}
-
-/// A floor of 4 x 1 squares with irradiance 1, 2, 3, 4 seen from above, one pixel a square.
-struct FloorPicture {
-  FloorPicture() {
-    SceneBuilder builder(1);
-    builder.grid(builder.material("grey", 0.5, 0.25), {-2, -0.5, -1}, {2, -0.5, -1}, {2, 0.5, -1},
-                 {-2, 0.5, -1}, 4, 1);
-    scene = builder.finish();
-    patches = patches_of(scene);
-    solution = solution_with(scene, patches, [&](std::uint32_t patch, std::uint32_t) {
-      return patches.centre[patch].x + 2.5;
-    });
-    camera.vertical_field_of_view = 53.13010235415598;
-    camera.width = 4;
-    camera.height = 1;
-  }
-  Picture of(Quantity quantity, bool flat) const {
-    return draw(scene, patches, values_of(patches, solution, quantity, flat), camera);
-  }
-
-  Scene scene;
-  PatchSet patches;
-  Solution solution;
-  Camera camera;
-};
-
-// Catches: the wrong column of the solution, a quantity divided by pi that is not to be.
-TEST(Quantity, EachIsWhatThePatchesHave) {
-  const FloorPicture floor;
-  for (std::size_t x = 0; x < 4; ++x) {
-    const double h = static_cast<double>(x) + 1;
-    EXPECT_NEAR(red(floor.of(Quantity::kIrradiance, true), x, 0), h, 1e-6);
-    EXPECT_NEAR(red(floor.of(Quantity::kRadiosity, true), x, 0), 0.25 + 0.5 * h, 1e-6);
-    EXPECT_NEAR(red(floor.of(Quantity::kRadiance, true), x, 0), (0.25 + 0.5 * h) / kPi, 1e-6);
-    EXPECT_NEAR(red(floor.of(Quantity::kExitance, false), x, 0), 0.25, 1e-6);
-  }
-}
-
-// Catches: --flat without effect, irradiance that is never reconstructed.
-TEST(Quantity, FlatShowsOneValueAPatch) {
-  FloorPicture floor;
-  floor.camera.width = 8;
-  floor.camera.height = 2;
-  const Picture flat = floor.of(Quantity::kIrradiance, true);
-  const Picture smooth = floor.of(Quantity::kIrradiance, false);
-  for (std::size_t x = 0; x < 8; x += 2) {
-    EXPECT_EQ(red(flat, x, 0), red(flat, x + 1, 0));
-    EXPECT_LT(red(smooth, x, 0), red(smooth, x + 1, 0) - 0.1);
-  }
-}
-
-// Catches: a mean that counts emitted light, a difference to the wrong patch, NaN without light.
-TEST(Quantity, TheErrorIsTheVariationInsideAPatchOverTheMeanReflected) {
-  FloorPicture floor;
-  const PictureValues error = values_of(floor.patches, floor.solution, Quantity::kError);
-  // B runs from 0.75 to 2.25 in steps of 0.5; corners between patches hold the mean of the two.
-  for (std::size_t patch = 0; patch < 4; ++patch)
-    EXPECT_NEAR(error.patch[patch], 0.25 / 1.25, 1e-6);
-  EXPECT_TRUE(error.corner.empty());
-  floor.solution.radiosity.fill(0.25);
-  for (const double value : values_of(floor.patches, floor.solution, Quantity::kError).patch)
-    EXPECT_EQ(value, 0);
-}
-
-// Catches: NaN in a picture, or spread to a neighbour whose value is known.
-TEST(Quantity, WhatIsNotKnownIsBackground) {
-  FloorPicture floor;
-  floor.solution.irradiance[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(unknown_count(values_of(floor.patches, floor.solution, Quantity::kIrradiance)), 1u);
-  EXPECT_EQ(unknown_count(values_of(floor.patches, floor.solution, Quantity::kRadiance)), 0u);
-  const Picture picture = floor.of(Quantity::kIrradiance, false);
-  EXPECT_EQ(picture.kind[1], PixelKind::kBackground);
-  EXPECT_EQ(picture.hits[1], 0);
-  EXPECT_EQ(red(picture, 1, 0), 0);
-  for (const std::size_t x : {0, 2, 3})
-    EXPECT_GT(red(picture, x, 0), 0.9) << x;
 }
 
 TEST(Exposure, PutsTheBrightSurfacesNearWhiteAndIgnoresEmitters) {

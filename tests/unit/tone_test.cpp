@@ -43,12 +43,27 @@ TEST(Tone, ClipsWhatCannotBeShown) {
 TEST(Tone, ExposureScalesLinearLight) {
   const float linear[] = {0, 0.01f, 4};
   Buffer<std::uint8_t> out;
-  ASSERT_TRUE(tone_map(linear, 50, &out).ok());
+  ASSERT_TRUE(tone_map(linear, {50}, &out).ok());
   const SrgbEncoder encode;
   ASSERT_EQ(out.size(), 3u);
   EXPECT_EQ(out[0], 0);
   EXPECT_EQ(out[1], encode(0.5));
   EXPECT_EQ(out[2], 255);
+}
+
+// Catches: a curve that does not reach white at the white point, hues that turn with brightness.
+TEST(Tone, ReinhardCompressesLuminanceAndKeepsHues) {
+  const float linear[] = {0.5f, 0.5f, 0.5f, 4, 4, 4, 0.2f, 0.1f, 0.05f, 0, 0, 0};
+  Buffer<std::uint8_t> out;
+  ASSERT_TRUE(tone_map(linear, {2, ToneCurve::kReinhard, 4}, &out).ok());
+  const SrgbEncoder encode;
+  EXPECT_EQ(out[0], encode(1 * (1 + 1 / 64.0) / 2));
+  EXPECT_EQ(out[3], 255);
+  const double y = 2 * luminance(0.2, 0.1, 0.05), gain = 2 * (1 + y / 64) / (1 + y);
+  EXPECT_EQ(out[6], encode(gain * 0.2));
+  EXPECT_EQ(out[7], encode(gain * 0.1));
+  EXPECT_EQ(out[8], encode(gain * 0.05));
+  EXPECT_EQ(out[9], 0);
 }
 
 } // namespace
