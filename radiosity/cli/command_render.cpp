@@ -1,10 +1,12 @@
 #include "radiosity/cli/commands.h"
 #include "radiosity/cli/console.h"
+#include "radiosity/cli/film.h"
 #include "radiosity/cli/interrupt.h"
 #include "radiosity/cli/picture_options.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/cli/solution_folder.h"
 #include "radiosity/output/image_writer.h"
+#include "radiosity/output/orbit.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,44 +14,52 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
-/// What the picture shows; says what of it is not known.
-Status find_values(const Session& session, const Solution& solution, PictureValues* values) {
-  const PictureOptions& wish = session.line.picture;
-  HC_TRY(picture_values(session.loaded.patches, solution, wish.quantity, wish.flat, values));
-  const std::uint32_t unknown = unknown_count(*values);
-  if (unknown != 0 && !session.line.quiet)
-    print_message(concat(counted(unknown, "patch is", "patches are"),
-                         " drawn as background: solved with --no-black-irradiance, the "
-                         "irradiance there is not known"));
-  return {};
+/// Chooses the folder of the images and proves that they can be written there, before the work.
+/// @param name  receives the name of the picture, of which the frames of a film have theirs
+Status begin_images(const CommandLine& line, FileSet* files, std::string* name) {
+  HC_TRY(files->begin_file(line.output, name));
+  for (std::uint32_t frame = 0; frame < line.picture.orbit; ++frame)
+    HC_TRY(files->check_name(frame_name(*name, frame)));
+  return load_image_plugin();
 }
 
-/// Draws the picture and writes it aside. @param exposure  receives the one that was used
-Status write_image(Session* session, const Solution& solution, const Camera& camera,
-                   const std::string& name, FileSet* files, double* exposure) {
-  const CommandLine& line = session->line;
-  PictureValues values;
-  HC_TRY(find_values(*session, solution, &values));
-  Picture picture;
-  HC_TRY(draw_picture(session->loaded.scene, session->loaded.patches, values, camera,
-                      {*line.options.kernels, line.picture.samples}, session->workers(), &picture));
-  const Result<double> chosen = choose_exposure(picture, line.exposure);
-  HC_TRY(chosen.status());
-  *exposure = chosen.value();
-  return write_picture(files, name, picture, *exposure);
+Status add_images(const Camera& camera, const std::string& name, std::uint32_t frames, Film* film,
+                  FileSet* files) {
+  if (frames == 0)
+    HC_TRY(film->add(camera, name, files));
+  for (std::uint32_t frame = 0; frame < frames; ++frame) {
+    HC_TRY(check_interrupt());
+    HC_TRY(film->add(orbit_camera(camera, frame, frames), frame_name(name, frame), files));
+  }
+  return check_interrupt();
 }
 
-void print_summary(const CommandLine& line, const Camera& camera, double exposure) {
+void print_summary(const CommandLine& line, const Film& film) {
+  const PictureOptions& picture = line.picture;
+  const bool has_exposure = !picture.patch_ids && !picture.false_color;
   if (line.json) {
     nlohmann::ordered_json json;
     json["image"] = line.output;
-    json["width"] = camera.width;
-    json["height"] = camera.height;
-    json["exposure"] = exposure;
+    json["width"] = film.width();
+    json["height"] = film.height();
+    if (picture.orbit != 0)
+      json["frames"] = picture.orbit;
+    if (picture.false_color)
+      json["range"] = {film.scale().min, film.scale().max};
+    if (has_exposure)
+      json["exposure"] = film.exposure();
     print(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else if (!line.quiet) {
-    print(concat(line.output, ": ", camera.width, "x", camera.height, ", exposure ",
-                 rounded(exposure), "\n"));
+    std::string text = concat(line.output, ": ", film.width(), "x", film.height());
+    if (picture.orbit != 0)
+      text += concat(", ", counted(picture.orbit, "frame", "frames"), " from ",
+                     frame_name(line.output, 0));
+    if (picture.false_color)
+      text +=
+          concat(", colours from ", rounded(film.scale().min), " to ", rounded(film.scale().max));
+    if (has_exposure)
+      text += concat(", exposure ", rounded(film.exposure()));
+    print(text + "\n");
   }
 }
 
@@ -70,25 +80,29 @@ Status run_render(const CommandLine& given) {
   }
   Session session(line);
   HC_TRY(session.begin(is_solved ? line.scene : line.input));
+  Film film(&session);
+  HC_TRY(film.find_band());
   Camera camera;
   HC_TRY(session.choose_camera(&camera));
+  HC_TRY(check_legend(line, camera));
   Solution solution;
   if (is_solved)
     HC_TRY(read_solution(session, &solution));
   FileSet files;
   std::string name;
-  HC_TRY(files.begin_file(line.output, &name));
-  HC_TRY(load_image_plugin());
+  HC_TRY(begin_images(line, &files, &name));
 
   Certificate certificate;
-  const Status solved = is_solved ? Status() : session.solve(&solution, &certificate);
+  const bool needs_light = !line.picture.patch_ids;
+  const Status solved =
+      is_solved || !needs_light ? Status() : session.solve(&solution, &certificate);
   if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
     return solved;
-  double exposure = 0;
-  HC_TRY(write_image(&session, solution, camera, name, &files, &exposure));
-  HC_TRY(check_interrupt());
+  if (needs_light)
+    HC_TRY(film.begin(solution));
+  HC_TRY(add_images(camera, name, line.picture.orbit, &film, &files));
   HC_TRY(files.commit());
-  print_summary(line, camera, exposure);
+  print_summary(line, film);
   return solved;
 }
 

@@ -97,6 +97,16 @@ Vec3 parse_vector(std::string_view text) {
   return {values[0], values[1], values[2]};
 }
 
+std::pair<double, double> parse_range(std::string_view text) {
+  constexpr double kLargest = 1e30, kSmallest = 1e-30;
+  double min = 0, max = 0;
+  if (std::count(text.begin(), text.end(), ',') != 1 || !read_number(take_part(&text, ','), &min) ||
+      !read_number(text, &max) || !(std::fabs(min) <= kLargest && std::fabs(max) <= kLargest) ||
+      !(max - min >= kSmallest))
+    throw BadValue("must be two numbers MIN,MAX, the second one larger, both within 1e30");
+  return {min, max};
+}
+
 void parse_size(std::string_view text, CameraOptions* camera) {
   for (std::optional<std::uint32_t>* side : {&camera->width, &camera->height}) {
     std::uint32_t pixels = 0;

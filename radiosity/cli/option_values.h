@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace hemicube::radiosity::cli {
 
@@ -25,6 +26,9 @@ std::uint64_t parse_memory_size(std::string_view text);
 
 /// Three finite numbers, "x,y,z".
 Vec3 parse_vector(std::string_view text);
+
+/// "min,max": finite numbers, min < max, of a size that scales can be made of.
+std::pair<double, double> parse_range(std::string_view text);
 
 /// "WxH", pixels.
 void parse_size(std::string_view text, CameraOptions* camera);

@@ -35,8 +35,18 @@ struct CameraOptions {
 /// What a picture shows, and how.
 struct PictureOptions {
   Quantity quantity = Quantity::kRadiance;
+  bool patch_ids = false; ///< instead of a quantity
   bool flat = false;
-  std::uint32_t samples = PictureSetting::kSamples;
+  std::string band; ///< empty = all
+  bool false_color = false;
+  std::optional<std::pair<double, double>> range; ///< min < max
+  bool log = false;
+  std::optional<ToneCurve> tone;
+  bool mesh = false;
+  std::optional<std::uint32_t> samples; ///< along each side of a pixel
+  std::uint32_t orbit = 0;              ///< frames; 0 = one picture
+
+  std::uint32_t samples_used() const { return samples.value_or(PictureSetting::kSamples); }
 };
 
 struct CheckedRun;

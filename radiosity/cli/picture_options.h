@@ -22,4 +22,8 @@ std::span<const PictureOption> picture_options();
 /// @return kInvalidArgument
 Status check_picture_options(const CommandLine& line);
 
+/// Refuses a picture too low for a legend.
+/// @return kInvalidArgument
+Status check_legend(const CommandLine& line, const Camera& camera);
+
 } // namespace hemicube::radiosity::cli

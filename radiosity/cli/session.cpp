@@ -127,7 +127,7 @@ Status Session::choose_camera(Camera* camera) const {
   camera->up = wish.up.value_or(camera->up);
   camera->vertical_field_of_view = wish.field_of_view.value_or(camera->vertical_field_of_view);
   CameraView view;
-  const Status status = camera_view(*camera, line.picture.samples, &view);
+  const Status status = camera_view(*camera, line.picture.samples_used(), &view);
   if (status.ok() || wish.is_any())
     return status;
   return Status::error(StatusCode::kBadScene, loaded.read.files.front(), ": ", status.message());

@@ -1,13 +1,21 @@
 // What `hemicube render` draws, by its options.
 
+#include "radiosity/output/color_map.h"
+#include "radiosity/output/color_scale.h"
 #include "radiosity/output/tone.h"
 #include "tests/cli/cli_case.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 namespace hemicube::test {
 namespace {
+
+using namespace std::string_literals;
 
 /// An image read back from a binary .ppm.
 struct Image {
@@ -28,14 +36,16 @@ protected:
 
   /// Solves the room into the folder "out".
   void solve(std::vector<std::string> more = {}) {
+    input_ = path("out");
     more.insert(more.begin(), {"solve", write_room(), "-o", path("out"), "--quiet"});
     run(0, more);
   }
 
   ProgramResult render(const std::string& image, const std::vector<std::string>& options,
                        int exit_code = 0) const {
-    std::vector<std::string> all = {"render", path("out"), "-o", path(image)};
-    all.insert(all.end(), camera_.begin(), camera_.end());
+    std::vector<std::string> all = {"render", input_, "-o", path(image)};
+    const bool has_size = std::find(options.begin(), options.end(), "--size") != options.end();
+    all.insert(all.end(), camera_.begin(), camera_.end() - (has_size ? 2 : 0));
     all.insert(all.end(), options.begin(), options.end());
     return run(exit_code, all);
   }
@@ -43,7 +53,7 @@ protected:
   Image drawn(const std::vector<std::string>& options, std::string* said = nullptr) const {
     const ProgramResult result = render("drawn.ppm", options);
     if (said != nullptr)
-      *said = result.err;
+      *said = result.err + result.out;
     const std::string bytes = read("drawn.ppm");
     Image image;
     std::size_t end = 0;
@@ -63,6 +73,14 @@ protected:
     return values;
   }
 
+  static int most_difference(const std::string& a, const std::string& b) {
+    int most = a.size() == b.size() ? 0 : 256;
+    for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
+      most = std::max(
+          most, std::abs(static_cast<unsigned char>(a[k]) - static_cast<unsigned char>(b[k])));
+    return most;
+  }
+
   static std::string grey(double linear) {
     return std::string(3, static_cast<char>(radiosity::SrgbEncoder()(linear)));
   }
@@ -75,20 +93,25 @@ protected:
     expect_refused(2, all, parts);
   }
 
+  std::string input_; ///< what render() draws
   std::vector<std::string> camera_;
 };
 
-// Catches: an option that does nothing, or another's work.
-TEST_F(PictureOptionsTest, QuantitiesAreThoseOfTheSolution) {
+// Catches: the wrong column of the solution, the wrong band or unit in false colours.
+TEST_F(PictureOptionsTest, NumbersAreThoseOfTheTable) {
   solve();
-  const auto floor = [this](const std::string& quantity) {
-    return drawn({"--quantity", quantity, "--exposure", "0.1", "--flat"}).at(32, 32);
-  };
-  const std::vector<double> h = numbers("irradiance_r"), b = numbers("radiosity_r");
-  ASSERT_FALSE(h.empty());
-  EXPECT_EQ(floor("irradiance")[0], grey(0.1 * h.front())[0]);
-  EXPECT_EQ(floor("radiosity")[0], grey(0.1 * b.front() / 3.14159265358979)[0]);
-  EXPECT_EQ(floor("exitance"), grey(0));
+  const double h = numbers("irradiance_r").front(), b = numbers("radiosity_g").front();
+  EXPECT_EQ(drawn({"--quantity", "irradiance", "--exposure", "0.1", "--flat"}).at(32, 32)[0],
+            grey(0.1 * h)[0]);
+  std::string said;
+  const Image image = drawn(
+      {"--false-color", "--band", "g", "--range", "0.1,20", "--log", "--flat", "--size", "90x90"},
+      &said);
+  const radiosity::Color expected =
+      radiosity::false_color(radiosity::ColorScale{0.1, 20, true}.share(b));
+  EXPECT_EQ(image.at(45, 45), std::string(expected.begin(), expected.end()));
+  EXPECT_GT(image.width, 90u);
+  EXPECT_NE(said.find("colours from 0.1 to 20"), std::string::npos) << said;
 }
 
 // Catches: NaN drawn, or no word of it.
@@ -101,10 +124,89 @@ TEST_F(PictureOptionsTest, UnknownIrradianceIsBackgroundWithANote) {
   EXPECT_NE(said.find("1 patch is drawn as background"), std::string::npos) << said;
 }
 
+// Catches: ids that a float cannot hold or that are colours; light computed for nothing.
+TEST_F(PictureOptionsTest, PatchIdsNeedNoLight) {
+  const std::string scene = write_room();
+  const ProgramResult result = run(0, {"render", scene, "-o", path("ids.exr"), "--quantity",
+                                       "patch-id", "--size", "8x8", "--max-edge", "0.1", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(result.out).count("exposure"), 0u);
+  const std::string bytes = read("ids.exr"); // its channel list: id, unsigned integers
+  const std::string channel = std::string("chlist") + '\0' + "\x14\0\0\0id\0"s + "\0\0\0\0"s;
+  EXPECT_NE(bytes.find(channel), std::string::npos);
+}
+
+// Catches: frames named over each other, a flicker of the exposure, half a film.
+TEST_F(PictureOptionsTest, AFilmGoesAroundTheTargetAtOneExposure) {
+  input_ = write_room();
+  camera_ = {"--camera-position", "0.5,0.1,0.5", "--camera-target", "0.5,0.5,0.5",
+             "--camera-up",       "0,0,1",       "--size",          "16x16"};
+  const ProgramResult film = render("film.ppm", {"--orbit", "3", "--max-edge", "0.3"});
+  EXPECT_NE(film.out.find("3 frames"), std::string::npos) << film.out;
+  std::set<std::string> frames;
+  for (const char* name : {"film.0000.ppm", "film.0001.ppm", "film.0002.ppm"})
+    frames.insert(read(name));
+  EXPECT_EQ(frames.size(), 3u);
+  EXPECT_EQ(new_files().count("film.ppm"), 0u);
+  const std::string exposure = film.out.substr(film.out.find("exposure ") + 9);
+  const double angle = 2 * 3.14159265358979 / 3, x = 0.5 + 0.4 * std::sin(angle),
+               y = 0.5 - 0.4 * std::cos(angle);
+  camera_[1] = std::to_string(x) + "," + std::to_string(y) + ",0.5";
+  const std::string second = read("film.0001.ppm"), first = read("film.0000.ppm");
+  EXPECT_LE(
+      most_difference(
+          drawn({"--exposure", exposure.substr(0, exposure.size() - 1), "--max-edge", "0.3"}).rgb,
+          second.substr(second.size() - 768)),
+      2);
+  EXPECT_GT(most_difference(first, second), 20);
+  // None at all where one frame cannot be written.
+  std::filesystem::create_directories(path("new.0002.ppm"));
+  EXPECT_NE(render("new.ppm", {"--orbit", "3"}, 1).err.find("new.0002.ppm"), std::string::npos);
+  EXPECT_EQ(new_files().count("new.0000.ppm"), 0u);
+}
+
+// Catches: an option silently without effect.
+TEST_F(PictureOptionsTest, WhatMakesNoSenseTogetherIsRefused) {
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"--range", "0,1"}, {"--log"}})
+    refused(words, {words.front() + ": needs --false-colour"});
+  for (const Words& words : {Words{"--tone", "srgb"}, {"--exposure", "2"}}) {
+    Words both = words;
+    both.push_back("--false-colour");
+    refused(both, {words.front() + ":", "--false-colour"});
+  }
+  for (const Words& words : {Words{"--false-colour"}, {"--tone", "reinhard"}, {"--mesh"}})
+    refused(words, {words.front() + ":", ".png"}, "a.exr");
+  for (const Words& words : {Words{"--false-color"},
+                             {"--mesh"},
+                             {"--samples", "2"},
+                             {"--band", "r"},
+                             {"--tone", "srgb"},
+                             {"--exposure", "2"}}) {
+    Words both = words;
+    both.insert(both.end(), {"--quantity", "patch-id"});
+    refused(both, {"patch ids"});
+  }
+  for (const std::string range : {"0,1", "-1,1"})
+    refused({"--false-colour", "--log", "--range", range}, {"--range", "--log", "above 0"});
+  refused({"--orbit", "4"}, {"--orbit", "number"}, "film.0003.png");
+  refused({"--orbit", "4", "--camera-position", "0,0,3", "--camera-target", "0,0,1", "--camera-up",
+           "0,0,1"},
+          {"camera", "up"});
+  refused({"--false-colour", "--size", "90x79"}, {"legend", "79", "80"});
+  refused({"--quantity", "patch-id"}, {"numbers", ".exr"}, "a.hdr");
+}
+
 TEST_F(PictureOptionsTest, BadValuesAreNamed) {
   for (const std::string value : {"0", "9", "-1", "3x", ""})
     refused({"--samples", value}, {"--samples " + value, "1..8"});
   refused({"--quantity", "colour"}, {"--quantity colour", "irradiance", "exitance"});
+  for (const std::string value :
+       {"1", "1,2,3", "2,1", "1,1", "a,b", "0,inf", "nan,1", "0,1e31", ""})
+    refused({"--false-colour", "--range", value}, {"--range " + value, "MIN,MAX"});
+  for (const std::string value : {"0", "-1", "10001", "4.5"})
+    refused({"--orbit", value}, {"--orbit " + value, "1..10000"});
+  refused({"--tone", "filmic"}, {"--tone filmic", "srgb, reinhard"});
+  refused({"--band", "x"}, {"--band x", "r, g, b"});
   refused({"--samples", "8", "--size", "16384x4"}, {"16384", "16383"});
 }
 
