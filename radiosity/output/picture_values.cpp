@@ -3,6 +3,7 @@
 #include "radiosity/output/vertex_radiosity.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hemicube::radiosity {
 namespace {
@@ -41,6 +42,23 @@ Status error_values(const PatchSet& patches, const Solution& solution, Buffer<do
   return {};
 }
 
+/// Reconstructs values of which some are not known: NaN at the corners that would need those.
+Status reconstruct_known(const PatchSet& patches, PictureValues* values) {
+  Buffer<double> filled, known;
+  Buffer<float> known_corner; // exactly 1 where all around is known
+  HC_TRY(filled.assign(values->patch));
+  HC_TRY(known.resize(filled.size(), 1));
+  for (std::size_t at = 0; at < filled.size(); ++at)
+    if (std::isnan(filled[at]))
+      filled[at] = known[at] = 0;
+  HC_TRY(vertex_radiosities(patches, filled, values->band_count, &values->corner));
+  HC_TRY(vertex_radiosities(patches, known, values->band_count, &known_corner));
+  for (std::size_t at = 0; at < known_corner.size(); ++at)
+    if (known_corner[at] != 1)
+      values->corner[at] = std::numeric_limits<float>::quiet_NaN();
+  return {};
+}
+
 } // namespace
 
 Status picture_values(const PatchSet& patches, const Solution& solution, Quantity quantity,
@@ -56,6 +74,8 @@ Status picture_values(const PatchSet& patches, const Solution& solution, Quantit
                                                                 : solution.radiosity));
   if (flat)
     return {};
+  if (unknown_count(*values) != 0)
+    return reconstruct_known(patches, values);
   return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
 }
 

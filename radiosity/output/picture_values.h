@@ -18,8 +18,8 @@ struct PictureValues {
   Quantity quantity = Quantity::kRadiance;
   std::uint32_t band_count = 0;
   Buffer<double> patch; ///< [patch][band], W/m^2 (B where it is L that is shown); NaN = not known
-  Buffer<float> corner; ///< [corner][band] the same, from vertex_radiosities(); empty: each patch
-                        ///< shows its one value
+  Buffer<float> corner; ///< [corner][band] the same, from vertex_radiosities(); NaN beside what is
+                        ///< not known; empty: each patch shows its one value
 };
 
 /// Values of a quantity on a solution, reconstructed at the corners where it varies.
