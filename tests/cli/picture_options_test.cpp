@@ -31,7 +31,7 @@ protected:
     CliCase::SetUp();
     // A narrow camera within the room: the middle of the floor.
     camera_ = {"--camera-position", "0.5,0.5,0.9", "--camera-target", "0.5,0.5,0",
-               "--camera-up",       "0,1,0",       "--size",          "65x65"};
+               "--camera-up",       "0,1,0",       "--size",          "64x64"};
   }
 
   /// Solves the room into the folder "out".
@@ -69,9 +69,11 @@ protected:
   std::vector<double> numbers(const std::string& column) const {
     std::vector<double> values;
     for (const std::string& text : column_of(read("out/patches.csv"), column))
-      values.push_back(std::stod(text));
+      values.push_back(text.empty() ? std::nan("") : std::stod(text));
     return values;
   }
+
+  static std::string text_of(const radiosity::Color& color) { return {color.begin(), color.end()}; }
 
   static int most_difference(const std::string& a, const std::string& b) {
     int most = a.size() == b.size() ? 0 : 256;
@@ -97,38 +99,56 @@ protected:
   std::vector<std::string> camera_;
 };
 
-// Catches: the wrong column of the solution, the wrong band or unit in false colours.
-TEST_F(PictureOptionsTest, NumbersAreThoseOfTheTable) {
-  solve();
-  const double h = numbers("irradiance_r").front(), b = numbers("radiosity_g").front();
-  EXPECT_EQ(drawn({"--quantity", "irradiance", "--exposure", "0.1", "--flat"}).at(32, 32)[0],
-            grey(0.1 * h)[0]);
+// Catches: the wrong column of the solution, the wrong band or unit in false colours, unknown
+// values without a word, an option that does nothing.
+TEST_F(PictureOptionsTest, PixelsAreThoseOfTheTable) {
+  solve({"--max-edge", "0.5", "--no-black-irradiance"});
   std::string said;
-  const Image image = drawn(
+  EXPECT_EQ(drawn({"--quantity", "irradiance", "--exposure", "0.1", "--flat"}, &said).at(20, 44)[0],
+            grey(0.1 * numbers("irradiance_r").front())[0]);
+  EXPECT_NE(said.find("4 patches are drawn as background"), std::string::npos) << said;
+
+  const Image numbered = drawn(
       {"--false-color", "--band", "g", "--range", "0.1,20", "--log", "--flat", "--size", "90x90"},
       &said);
-  const radiosity::Color expected =
-      radiosity::false_color(radiosity::ColorScale{0.1, 20, true}.share(b));
-  EXPECT_EQ(image.at(45, 45), std::string(expected.begin(), expected.end()));
-  EXPECT_GT(image.width, 90u);
+  const double share = radiosity::ColorScale{0.1, 20, true}.share(numbers("radiosity_g").front());
+  EXPECT_EQ(numbered.at(30, 60), text_of(radiosity::false_color(share)));
+  EXPECT_GT(numbered.width, 90u);
   EXPECT_NE(said.find("colours from 0.1 to 20"), std::string::npos) << said;
-}
 
-// Catches: NaN drawn, or no word of it.
-TEST_F(PictureOptionsTest, UnknownIrradianceIsBackgroundWithANote) {
-  solve({"--no-black-irradiance"});
-  camera_ = {"--camera-position", "0.5,0.5,0.1", "--camera-target", "0.5,0.5,1",
-             "--camera-up",       "0,1,0",       "--size",          "8x8"};
-  std::string said;
-  EXPECT_EQ(drawn({"--quantity", "irradiance"}, &said).at(4, 4), grey(0));
-  EXPECT_NE(said.find("1 patch is drawn as background"), std::string::npos) << said;
+  // The floor is of four patches, which share the middle of the picture.
+  const Image lined =
+      drawn({"--flat", "--samples", "1", "--mesh", "--tone", "reinhard", "--exposure", "0.5"});
+  radiosity::Tone tone{0.5, radiosity::ToneCurve::kReinhard, 0};
+  std::vector<float> light;
+  for (std::size_t patch = 0; patch < 4; ++patch) {
+    for (const char* band : {"radiosity_r", "radiosity_g", "radiosity_b"})
+      light.push_back(static_cast<float>(numbers(band)[patch] / 3.14159265358979));
+    const float* rgb = light.data() + 3 * patch;
+    tone.white = std::max(tone.white, radiosity::luminance(static_cast<double>(rgb[0]),
+                                                           static_cast<double>(rgb[1]),
+                                                           static_cast<double>(rgb[2])));
+  }
+  Buffer<std::uint8_t> shown;
+  ASSERT_TRUE(radiosity::tone_map(light, tone, &shown).ok());
+  const radiosity::Color first{shown[0], shown[1], shown[2]};
+  EXPECT_EQ(lined.at(3, 60), text_of(first));
+  EXPECT_EQ(lined.at(28, 34), text_of(first));
+  radiosity::Color line; // half of the patch, half black
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    line[channel] = static_cast<std::uint8_t>((first[channel] + 1) / 2);
+  EXPECT_EQ(lined.at(31, 50), text_of(line));
 }
 
 // Catches: ids that a float cannot hold or that are colours; light computed for nothing.
 TEST_F(PictureOptionsTest, PatchIdsNeedNoLight) {
-  const std::string scene = write_room();
+  // Light that is reflected for ever: there is no solution.
+  const std::string scene = write_room(kRoomObj, "newmtl white\nKd 1 1 1\n"
+                                                 "newmtl light\nKd 1 1 1\nKe 1 1 1\n"
+                                                 "newmtl red\nKd 1 1 1\n");
+  run(1, {"render", scene, "-o", path("light.png"), "--size", "8x8"});
   const ProgramResult result = run(0, {"render", scene, "-o", path("ids.exr"), "--quantity",
-                                       "patch-id", "--size", "8x8", "--max-edge", "0.1", "--json"});
+                                       "patch-id", "--size", "8x8", "--json"});
   EXPECT_EQ(nlohmann::json::parse(result.out).count("exposure"), 0u);
   const std::string bytes = read("ids.exr"); // its channel list: id, unsigned integers
   const std::string channel = std::string("chlist") + '\0' + "\x14\0\0\0id\0"s + "\0\0\0\0"s;
