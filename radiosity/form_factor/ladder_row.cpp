@@ -21,8 +21,9 @@ constexpr double kOneView = 1, kUnseenShare = 0.03;
 constexpr std::uint64_t kTestCost = 60, kPointCost = 800, kPairCost = 60;
 
 raster::View view_of(const PatchSet& patches, const RowPlace& place) {
-  return place.patch != RowPlace::kNoPatch ? hemicube_view(patches, place.patch)
-                                           : hemicube_view(place.position, place.normal);
+  return place.patch == RowPlace::kNoPatch ? hemicube_view(place.position, place.normal)
+         : place.part.empty()              ? hemicube_view(patches, place.patch)
+                                           : hemicube_view(patches, place.patch, place.part);
 }
 
 /// Of the areas of a pair; with it the larger of its two form factors, the same for both rows.
@@ -99,7 +100,11 @@ Status LadderRow::find_exchange(const RowPlace& place, bool own_only, RowFacts* 
   if (!seen_faces_.empty())
     HC_TRY(mark_seen_faces(view, facts));
   const std::uint32_t own_face = on_patch ? facets().face_of(place.patch) : SeenTargets::kNoFace;
-  if (on_patch && setup_->setting.rung != Rung::kAnalytic) {
+  if (!place.part.empty() && setup_->setting.rung != Rung::kAnalytic) {
+    const PatchPiece part = facets().part_of(place.patch, place.part);
+    exchange_.area = part.area;
+    HC_TRY(add_receiver(view, part, own_face, nullptr, facts));
+  } else if (on_patch && setup_->setting.rung != Rung::kAnalytic) {
     exchange_.area = setup_->geometry->patches().area[place.patch];
     for (const PatchPiece& piece : facets().pieces_of(place.patch))
       HC_TRY(add_receiver(view, piece, own_face, own_only ? &piece : nullptr, facts));

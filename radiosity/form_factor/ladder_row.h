@@ -7,12 +7,15 @@
 
 namespace hemicube::radiosity {
 
-/// Where a row is computed: on a patch, or at a point.
+/// Where a row is computed: on a patch, on a part of one, or at a point.
 struct RowPlace {
   static constexpr std::uint32_t kNoPatch = 0xffffffffu;
 
   std::uint32_t patch = kNoPatch;
   Vec3 position{0, 0, 0}, normal{0, 0, 1}; ///< without a patch; normal of any length > 0
+  /// The corners of the part, convex, at most OccluderFaces::kMostCorners, counter-clockwise seen
+  /// from the front; empty: the whole patch. Not owned.
+  std::span<const Vec3> part = {};
 };
 
 /// Builds rows on any rung. One per worker.

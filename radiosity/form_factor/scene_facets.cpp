@@ -86,6 +86,17 @@ Status SceneFacets::fill_pieces(const PatchSet& patches) {
   return {};
 }
 
+PatchPiece SceneFacets::part_of(std::uint32_t patch, std::span<const Vec3> corners) const noexcept {
+  const PatchPiece& whole = pieces_of(patch)[0];
+  PatchPiece part;
+  part.patch = patch;
+  part.has_copies = whole.has_copies;
+  part.facet = Facet::of(corners, whole.facet.plane.normal);
+  part.prepared = prepare_area(corners, whole.facet.plane.normal);
+  part.area = glm::length(area_vector(corners));
+  return part;
+}
+
 Status SceneFacets::fill_faces() {
   HC_TRY(face_facets_.resize(face_count()));
   for (std::uint32_t f = 0; f < face_count(); ++f)

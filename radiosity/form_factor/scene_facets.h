@@ -30,6 +30,9 @@ public:
     return pieces_.span().subspan(piece_offsets_[patch],
                                   piece_offsets_[patch + 1] - piece_offsets_[patch]);
   }
+  /// A part of a patch as a receiver. @param corners  convex, in its plane; must outlive the piece
+  PatchPiece part_of(std::uint32_t patch, std::span<const Vec3> corners) const noexcept;
+
   const Facet& face(std::uint32_t index) const noexcept { return face_facets_[index]; }
   std::uint32_t face_of(std::uint32_t patch) const noexcept { return faces_.face_of_patch[patch]; }
   std::span<const std::uint32_t> patches_of(std::uint32_t face) const noexcept {

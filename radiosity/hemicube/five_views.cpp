@@ -1,5 +1,7 @@
 #include "radiosity/hemicube/five_views.h"
 
+#include "radiosity/mesh/polygon_shape.h"
+
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -52,6 +54,15 @@ raster::Polygons polygons_of(const PatchSet& patches) noexcept {
 raster::View hemicube_view(const PatchSet& patches, std::uint32_t patch) noexcept {
   raster::View view =
       turned_view(patches.centre[patch], patches.normal[patch], first_edge(patches, patch));
+  view.skip = patch;
+  return view;
+}
+
+raster::View hemicube_view(const PatchSet& patches, std::uint32_t patch,
+                           std::span<const Vec3> part) noexcept {
+  const Vec3 edge = part[1] - part[0];
+  raster::View view = turned_view(centroid(part, measure_polygon(part)), patches.normal[patch],
+                                  edge / glm::length(edge));
   view.skip = patch;
   return view;
 }

@@ -14,6 +14,11 @@ raster::Polygons polygons_of(const PatchSet& patches) noexcept;
 /// rooms. It depends on the patch's own vertices only; the patch itself is not drawn.
 raster::View hemicube_view(const PatchSet& patches, std::uint32_t patch) noexcept;
 
+/// The same for a part of a patch: eye at its centre, axis_x from its own first edge.
+/// @param part  convex, in the patch's plane
+raster::View hemicube_view(const PatchSet& patches, std::uint32_t patch,
+                           std::span<const Vec3> part) noexcept;
+
 /// The same at a point: axis_x starts from the coordinate axis least aligned with the normal (x
 /// before y before z among equals).
 raster::View hemicube_view(const Vec3& point, const Vec3& normal) noexcept;
