@@ -127,6 +127,14 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
                    Executor& executor, Progress* progress, Solution* solution,
                    Certificate* certificate);
 
+/// Computes light from form factors that are there; of `options`, those of rows do not count.
+/// @param setting  how the rows were computed
+/// @param rows     of all patches, in memory; taken over
+/// @return as solve_scene
+Status solve_rows(const Scene& scene, const PatchSet& patches, const RungSetting& setting,
+                  FormFactorMatrix* rows, const Options& options, Executor& executor,
+                  Progress* progress, Solution* solution, Certificate* certificate);
+
 /// Computes rows of form factors: of the listed patches, or of all if `rows` is empty.
 /// @param matrix  row k belongs to patch rows[k]
 /// @return kInvalidArgument (bad option, no such row, balance with a selection of rows), kBadScene

@@ -1,5 +1,6 @@
 #include "radiosity/balance_rows.h"
 #include "radiosity/dial.h"
+#include "radiosity/energy_balance.h"
 #include "radiosity/kept_rows.h"
 #include "radiosity/light_model.h"
 #include "radiosity/radiosity.h"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
-/// One solve from beginning to end; the steps in the order they are called.
+/// One solve from beginning to end; the steps in the order they are called by run().
 class SceneSolver {
 public:
   SceneSolver(const Scene& scene, const PatchSet& patches, const Options& options,
@@ -30,27 +31,36 @@ public:
         progress_(progress), dial_(&geometry_, &problem_, options, executor),
         watch_(scene, patches, light_, options, progress) {}
 
+  /// Instead of rows that are computed, or kept in files. @param rows  taken over by build_matrix
+  void give_rows(FormFactorMatrix* rows, const RungSetting& setting) {
+    given_rows_ = rows;
+    setting_ = setting;
+  }
+  Status run(Solution* solution, Certificate* certificate);
+
+private:
   Status prepare();
   Status choose_setting();
   Status build_matrix(Certificate* certificate);
   Status solve(Certificate* certificate);
   /// Instead of the two: light without a matrix.
-  bool shoots() const {
-    return options_.solver == SolverKind::kProgressive && !options_.balance &&
-           !kept_.hold_black_rows() && !kept_.are_given();
-  }
+  bool shoots() const { return options_.solver == SolverKind::kProgressive && !has_black_rows(); }
   Status shoot(Certificate* certificate);
   /// @param is_enough  false if a finer setting was chosen: matrix and light are to be made again
   Status estimate_error(Certificate* certificate, bool* is_enough);
   Status gather_black_irradiance();
   Status fill(Solution* solution, Certificate* certificate);
 
-private:
-  Status read_given_rows();
+  /// True if nothing is rendered for the solution.
+  bool rows_are_given() const { return given_rows_ != nullptr || kept_.are_given(); }
+  /// True if the matrix has the rows of black patches, too.
+  bool has_black_rows() const {
+    return options_.balance || kept_.hold_black_rows() || rows_are_given();
+  }
+  Status take_given_rows();
   void gather_black(std::uint64_t i, const RowView& row);
   Status gather_black_rows_of(const FormFactorMatrix& rows, std::size_t blocks);
   void record(const Status& status, const Convergence& convergence, Certificate* certificate);
-  void balance_energy(const Solution& solution, Certificate* certificate) const;
 
   const Scene& scene_;
   const PatchSet& patches_;
@@ -62,6 +72,7 @@ private:
   LightProblem problem_;
   Buffer<double> light_guess_; ///< [patch] all bands together
   KeptRows kept_;
+  FormFactorMatrix* given_rows_ = nullptr; ///< null: none but those of a file
   RowGeometry geometry_;
   RungSetting setting_;
   Buffer<double> found_; ///< errors for which finer settings were chosen, by round
@@ -74,6 +85,30 @@ private:
   Buffer<double> radiosity_, irradiance_; ///< [patch][band of the problem]
 };
 
+Status SceneSolver::run(Solution* solution, Certificate* certificate) {
+  *certificate = {};
+  HC_TRY(prepare());
+  HC_TRY(choose_setting());
+  Status solved;
+  if (shoots()) {
+    solved = shoot(certificate);
+    if (!certificate->solved)
+      return solved;
+    HC_TRY(fill(solution, certificate));
+    return solved;
+  }
+  for (bool is_enough = false; !is_enough;) {
+    HC_TRY(build_matrix(certificate));
+    solved = solve(certificate);
+    if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
+      return solved;
+    HC_TRY(estimate_error(certificate, &is_enough));
+  }
+  HC_TRY(gather_black_irradiance());
+  HC_TRY(fill(solution, certificate));
+  return solved;
+}
+
 Status SceneSolver::prepare() {
   HC_TRY(light_.init(scene_, patches_));
   problem_ = light_.problem(patches_);
@@ -82,9 +117,9 @@ Status SceneSolver::prepare() {
 }
 
 Status SceneSolver::choose_setting() {
-  setting_ = {options_.rung, options_.resolution, options_.error};
-  if (kept_.are_given())
+  if (rows_are_given())
     return {};
+  setting_ = {options_.rung, options_.resolution, options_.error};
   if (options_.estimate_error) {
     Buffer<double> light;
     const std::uint32_t bands = problem_.band_count;
@@ -101,25 +136,26 @@ Status SceneSolver::choose_setting() {
   return {};
 }
 
-Status SceneSolver::read_given_rows() {
+Status SceneSolver::take_given_rows() {
   HC_TRY(statistics_.init(patches_.patch_count(), options_.hash_items));
-  HC_TRY(kept_.read_given(&matrix_, &setting_));
+  if (given_rows_ != nullptr)
+    matrix_.swap(*given_rows_);
+  else
+    HC_TRY(kept_.read_given(&matrix_, &setting_));
   return statistics_.record_rows(matrix_, matrix_.row_count());
 }
 
 Status SceneSolver::build_matrix(Certificate* certificate) {
-  if (kept_.are_given()) {
-    HC_TRY(read_given_rows());
+  if (rows_are_given()) {
+    HC_TRY(take_given_rows());
     return options_.balance
                ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
                : Status();
   }
   const std::uint32_t count = patches_.patch_count();
-  const auto is_wanted = [&](std::uint32_t i) {
-    return options_.balance || kept_.hold_black_rows() || !problem_.is_black(i);
-  };
+  const auto is_wanted = [&](std::uint32_t i) { return has_black_rows() || !problem_.is_black(i); };
   std::uint64_t rows = count;
-  if (!options_.black_irradiance && !options_.balance && !kept_.hold_black_rows())
+  if (!options_.black_irradiance && !has_black_rows())
     for (std::uint32_t i = 0; i < count; ++i)
       rows -= problem_.is_black(i) ? 1 : 0;
   HC_TRY(
@@ -221,7 +257,7 @@ Status SceneSolver::shoot(Certificate* certificate) {
 
 Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   *is_enough = true;
-  // To judge rows that were given, others would have to be rendered.
+  // To judge rows of a file, others would have to be rendered.
   if (!options_.estimate_error || setting_.rung == Rung::kExact || kept_.are_given())
     return {};
   RowSample sample;
@@ -239,7 +275,7 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   HC_TRY(rows.copy_rows(matrix_, sample.patches()));
   c.form_factor_error = sample.form_factor_error([&](std::size_t k) { return rows.row(k); });
   c.has_form_factor_error = true;
-  if (!options_.choose_rung || c.radiosity_error <= options_.error)
+  if (rows_are_given() || !options_.choose_rung || c.radiosity_error <= options_.error)
     return {};
   bool is_finer = false;
   HC_TRY(dial_.choose_finer(c.radiosity_error, &setting_, &is_finer));
@@ -263,7 +299,7 @@ Status SceneSolver::gather_black_irradiance() {
         irradiance_[at] = kNotComputed;
     return {};
   }
-  if (options_.balance || kept_.hold_black_rows() || kept_.are_given())
+  if (has_black_rows())
     return gather_black_rows_of(matrix_, matrix_.block_count());
   // Rows that are used once and dropped, or kept where there is a file for them.
   FormFactorMatrix black_rows;
@@ -336,28 +372,10 @@ Status SceneSolver::fill(Solution* solution, Certificate* certificate) {
       return {}; // without the irradiance of black patches there is no balance
   HC_TRY(certificate->energy.resize(bands));
   if (shot_energy_.empty())
-    balance_energy(s, certificate);
+    balance_energy(scene_, patches_, s, certificate->energy.span());
   for (std::uint32_t b = 0; b < bands && !shot_energy_.empty(); ++b)
     certificate->energy[b] = shot_energy_[light_.solved_band[b]];
   return {};
-}
-
-void SceneSolver::balance_energy(const Solution& s, Certificate* certificate) const {
-  for (std::uint32_t b = 0; b < s.band_count; ++b) {
-    EnergyBalance energy;
-    for (std::uint32_t i = 0; i < patches_.patch_count(); ++i) {
-      const double area = patches_.area[i];
-      const std::size_t at = std::size_t{i} * s.band_count + b;
-      energy.emitted += area * (s.exitance[at] + s.space[i] * scene_.space_exitance[b]);
-      energy.absorbed += area * (1 - s.reflectance[at]) * s.irradiance[at];
-      energy.back_side += area * s.back_side[i] * s.radiosity[at];
-      energy.escaped += area * s.space[i] * s.radiosity[at];
-    }
-    if (energy.emitted > 0)
-      energy.imbalance =
-          (energy.emitted - energy.absorbed - energy.back_side - energy.escaped) / energy.emitted;
-    certificate->energy[b] = energy;
-  }
 }
 
 } // namespace
@@ -372,28 +390,17 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
                    Executor& executor, Progress* progress, Solution* solution,
                    Certificate* certificate) {
   const FloatEnvironment environment;
-  *certificate = {};
   SceneSolver solver(scene, patches, options, executor, progress);
-  HC_TRY(solver.prepare());
-  HC_TRY(solver.choose_setting());
-  Status solved;
-  if (solver.shoots()) {
-    solved = solver.shoot(certificate);
-    if (!certificate->solved)
-      return solved;
-    HC_TRY(solver.fill(solution, certificate));
-    return solved;
-  }
-  for (bool is_enough = false; !is_enough;) {
-    HC_TRY(solver.build_matrix(certificate));
-    solved = solver.solve(certificate);
-    if (!solved.ok() && solved.code() != StatusCode::kNotConverged)
-      return solved;
-    HC_TRY(solver.estimate_error(certificate, &is_enough));
-  }
-  HC_TRY(solver.gather_black_irradiance());
-  HC_TRY(solver.fill(solution, certificate));
-  return solved;
+  return solver.run(solution, certificate);
+}
+
+Status solve_rows(const Scene& scene, const PatchSet& patches, const RungSetting& setting,
+                  FormFactorMatrix* rows, const Options& options, Executor& executor,
+                  Progress* progress, Solution* solution, Certificate* certificate) {
+  const FloatEnvironment environment;
+  SceneSolver solver(scene, patches, options, executor, progress);
+  solver.give_rows(rows, setting);
+  return solver.run(solution, certificate);
 }
 
 } // namespace hemicube::radiosity
