@@ -57,6 +57,7 @@ Status run_probe(const CommandLine& given) {
   HC_TRY(follow_origin(origin, &line));
   Session session(line);
   HC_TRY(session.begin(line.scene));
+  HC_TRY(follow_refinement(origin, &session));
   HC_TRY(check_origin(origin, session));
   Solution solution;
   HC_TRY(read_solution(session, &solution));

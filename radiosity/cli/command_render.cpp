@@ -3,6 +3,7 @@
 #include "radiosity/cli/film.h"
 #include "radiosity/cli/interrupt.h"
 #include "radiosity/cli/picture_options.h"
+#include "radiosity/cli/refinement_options.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/cli/solution_folder.h"
 #include "radiosity/output/image_writer.h"
@@ -68,15 +69,22 @@ void print_summary(const CommandLine& line, const Film& film) {
 Status run_render(const CommandLine& given) {
   CommandLine line = given;
   HC_TRY(check_picture_options(line));
+  HC_TRY(check_refinement(line));
   std::error_code ignored;
   const bool is_solved = std::filesystem::is_directory(line.input, ignored);
   if (!is_solved && !line.scene.empty())
     return Status::error(StatusCode::kInvalidArgument, line.input,
                          ": is no folder with a solution, which --scene is for");
-  if (is_solved && line.scene.empty()) {
-    SolutionOrigin origin;
-    HC_TRY(read_origin(line.input, &origin));
-    HC_TRY(follow_origin(origin, &line));
+  if (is_solved && line.refinement.adaptive)
+    return Status::error(StatusCode::kInvalidArgument, "--adaptive: ", line.input,
+                         " is solved already, on the mesh it has");
+  SolutionOrigin origin;
+  if (is_solved) {
+    const Status found = read_origin(line.input, &origin);
+    if (line.scene.empty()) { // else the table of patches may do without a report
+      HC_TRY(found);
+      HC_TRY(follow_origin(origin, &line));
+    }
   }
   Session session(line);
   HC_TRY(session.begin(is_solved ? line.scene : line.input));
@@ -86,6 +94,7 @@ Status run_render(const CommandLine& given) {
   HC_TRY(session.choose_camera(&camera));
   HC_TRY(check_legend(line, camera));
   Solution solution;
+  HC_TRY(follow_refinement(origin, &session));
   if (is_solved)
     HC_TRY(read_solution(session, &solution));
   FileSet files;
@@ -93,7 +102,7 @@ Status run_render(const CommandLine& given) {
   HC_TRY(begin_images(line, &files, &name));
 
   Certificate certificate;
-  const bool needs_light = !line.picture.patch_ids;
+  const bool needs_light = !line.picture.patch_ids || line.refinement.adaptive;
   const Status solved =
       is_solved || !needs_light ? Status() : session.solve(&solution, &certificate);
   if (!solved.ok() && solved.code() != StatusCode::kNotConverged)

@@ -1,6 +1,7 @@
 #include "radiosity/cli/commands.h"
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
+#include "radiosity/cli/refinement_options.h"
 #include "radiosity/cli/requirements.h"
 #include "radiosity/cli/session.h"
 #include "radiosity/output/image_writer.h"
@@ -49,8 +50,8 @@ Status write_snapshot(Session* session, const Camera& camera, std::uint64_t shot
 
 void print_summary(const Session& session, const Certificate& certificate) {
   const Certificate& c = certificate;
-  print(concat(counted(c.patches, "patch", "patches"), ", ", session.rung_text(c),
-               c.has_shots ? shots_text(c) : "", c.has_residual ? residual_text(c) : "",
+  print(concat(session.mesh_text(c), ", ", session.rung_text(c), c.has_shots ? shots_text(c) : "",
+               c.has_residual ? residual_text(c) : "",
                c.has_radiosity_error
                    ? concat(" of the solver, ", rounded(c.radiosity_error), " of the form factors")
                    : "",
@@ -70,7 +71,7 @@ Status write_files(Session* session, const Solution& solution, const Certificate
   HC_TRY(check_interrupt());
   HC_TRY(write_solution(files,
                         {loaded.patches, solution, session->report_parts(certificate), camera,
-                         line.exposure, *line.options.kernels},
+                         line.exposure, *line.options.kernels, session->tree()},
                         report, &picture_note));
   if (!picture_note.empty() && !line.quiet)
     print_message(picture_note);
@@ -81,6 +82,7 @@ Status write_files(Session* session, const Solution& solution, const Certificate
 
 Status run_solve(const CommandLine& line) {
   HC_TRY(check_applicable(line));
+  HC_TRY(check_refinement(line));
   Session session(line);
   HC_TRY(session.begin(line.input));
   FileSet files;
@@ -89,7 +91,8 @@ Status run_solve(const CommandLine& line) {
     HC_TRY(session.choose_camera(&camera));
     HC_TRY(begin_solution(&files, line.output));
   }
-  HC_TRY(session.begin_files(line.output.empty() ? "" : line.output + "/form_factors.hcf"));
+  if (!line.refinement.adaptive)
+    HC_TRY(session.begin_files(line.output.empty() ? "" : line.output + "/form_factors.hcf"));
   Solution solution;
   Certificate certificate;
   const Status solved =

@@ -13,7 +13,7 @@ namespace hemicube::radiosity::cli {
 /// A scene with its mesh, and what was done to get there.
 struct LoadedScene {
   Scene scene;
-  PatchSet patches;
+  PatchSet patches; ///< elements, once it was refined
   ReadReport read;
   MeshReport mesh;
 };

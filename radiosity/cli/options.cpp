@@ -3,6 +3,7 @@
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/option_values.h"
 #include "radiosity/cli/picture_options.h"
+#include "radiosity/cli/refinement_options.h"
 #include "radiosity/cli/requirements.h"
 #include "raster/types.h"
 
@@ -186,6 +187,7 @@ private:
     sub->add_flag_callback(
         "--no-black-irradiance", [this] { line_.options.black_irradiance = false; },
         "do not gather the irradiance of patches that reflect nothing");
+    add_table(sub, refinement_options(), &line_.refinement);
     add_form_factors(sub);
     add_shots(sub);
     add_exposure(sub);
@@ -270,18 +272,20 @@ private:
     add_path(sub, "-o", "IMAGE", "picture: .png, .exr, ...", &line_.output)->required();
     add_exposure(sub);
     add_camera(sub);
-    for (const PictureOption& option : picture_options())
-      add_picture_option(sub, option);
+    add_table(sub, picture_options(), &line_.picture);
+    add_table(sub, refinement_options(), &line_.refinement);
   }
 
-  void add_picture_option(CLI::App* sub, const PictureOption& option) {
-    PictureOptions& picture = line_.picture;
-    if (option.placeholder == nullptr)
-      sub->add_flag_callback(
-          option.names, [&picture, option] { option.set({}, &picture); }, option.description);
-    else
-      add_value(sub, option.names, option.placeholder, option.description,
-                [&picture, option](const std::string& text) { option.set(text, &picture); });
+  template <typename Target>
+  void add_table(CLI::App* sub, std::span<const TableOption<Target>> options, Target* target) {
+    for (const TableOption<Target>& option : options) {
+      if (option.placeholder == nullptr)
+        sub->add_flag_callback(
+            option.names, [target, option] { option.set({}, target); }, option.description);
+      else
+        add_value(sub, option.names, option.placeholder, option.description,
+                  [target, option](const std::string& text) { option.set(text, target); });
+    }
   }
 
   void add_camera(CLI::App* sub) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "radiosity/adaptive.h"
 #include "radiosity/output/picture.h"
-#include "radiosity/radiosity.h"
 
 #include <cstdint>
 #include <optional>
@@ -49,6 +49,13 @@ struct PictureOptions {
   std::uint32_t samples_used() const { return samples.value_or(PictureSetting::kSamples); }
 };
 
+/// `--adaptive` and what belongs to it.
+struct RefinementOptions {
+  bool adaptive = false;
+  Refinement limits;
+  const char* limit_given = nullptr; ///< an option that set one; null = none did
+};
+
 struct CheckedRun;
 
 /// One condition of `--require` (requirements.h): a quantity and the most it may be.
@@ -74,6 +81,7 @@ struct CommandLine {
   std::string input;         ///< SCENE, DIR, or DIR|SCENE
   std::string output;        ///< -o; empty = none
 
+  RefinementOptions refinement;             ///< solve, render
   std::string form_factors;                 ///< solve, formfactors: a .hcf; empty = none
   std::uint64_t memory_bytes = 0;           ///< most that may be used; 0 = chosen
   bool by_group = false;                    ///< formfactors --by-group

@@ -4,6 +4,7 @@
 #include "radiosity/cli/memory_plan.h"
 #include "radiosity/light_model.h"
 #include "radiosity/output/camera_view.h"
+#include "radiosity/output/element_table.h"
 #include "radiosity/output/file_set.h"
 #include "radiosity/output/report_json.h"
 #include "radiosity/scene/text_cursor.h"
@@ -77,6 +78,8 @@ Status Session::solve(Solution* solution, Certificate* certificate,
                       const ProgressReport::TakeSnapshot& take_snapshot) {
   const Status status = compute([&](ProgressReport* progress) {
     progress->set_snapshots(take_snapshot);
+    if (line.refinement.adaptive)
+      return solve_refined(progress, solution, certificate);
     return solve_scene(loaded.scene, loaded.patches, options_, pool_, progress, solution,
                        certificate);
   });
@@ -85,6 +88,22 @@ Status Session::solve(Solution* solution, Certificate* certificate,
   if (is_of_scene)
     return Status::error(status.code(), scene_path_, ": ", status.message());
   return status;
+}
+
+Status Session::solve_refined(ProgressReport* progress, Solution* solution,
+                              Certificate* certificate) {
+  coarse_ = std::move(loaded.patches);
+  is_refined_ = true;
+  return solve_adaptive(loaded.scene, coarse_, line.refinement.limits, line.options, pool_,
+                        progress, &tree_, &loaded.patches, solution, certificate, &refinement_);
+}
+
+Status Session::refine_as(std::string_view element_table, const std::string& path) {
+  coarse_ = std::move(loaded.patches);
+  is_refined_ = true;
+  HC_TRY(tree_.init(loaded.scene, coarse_));
+  HC_TRY(read_element_table(element_table, path, &tree_));
+  return tree_.make_mesh(&loaded.patches);
 }
 
 Status Session::form_factors(std::span<const std::uint32_t> rows, FormFactorMatrix* matrix,
@@ -135,12 +154,29 @@ Status Session::choose_camera(Camera* camera) const {
 
 ReportParts Session::report_parts(const Certificate& certificate) {
   run.peak_memory_bytes = peak_memory_bytes();
-  return {loaded.scene, line.options, certificate, loaded.mesh,  loaded.read.skipped,
-          run,          kVersion,     scene_path_, line.max_edge};
+  return {loaded.scene,
+          line.options,
+          certificate,
+          loaded.mesh,
+          loaded.read.skipped,
+          run,
+          kVersion,
+          scene_path_,
+          line.max_edge,
+          line.refinement.adaptive ? &refinement_ : nullptr};
 }
 
 std::string Session::report_text(const Certificate& certificate) {
   return report_json(report_parts(certificate));
+}
+
+std::string Session::mesh_text(const Certificate& certificate) const {
+  if (!is_refined_)
+    return counted(certificate.patches, "patch", "patches");
+  return concat(counted(certificate.patches, "element", "elements"), " of ",
+                counted(refinement_.patches, "patch", "patches"), " (",
+                counted(refinement_.rounds, "round", "rounds"), ", ended by ",
+                refinement_end_name(refinement_.end), ")");
 }
 
 std::string Session::rung_text(const Certificate& certificate) const {

@@ -36,6 +36,11 @@ public:
   Status point_form_factors(std::span<const Receiver> points, FormFactorMatrix* matrix,
                             Certificate* certificate);
 
+  /// Cuts the patches as a table says. @param path  its name
+  Status refine_as(std::string_view element_table, const std::string& path);
+  /// How the patches were cut, by refine_as or solve; null if they were not.
+  const ElementTree* tree() const { return is_refined_ ? &tree_ : nullptr; }
+
   /// Does a little of what `solve` would do.
   Status forecast(ForecastProgress* progress, Forecast* forecast);
 
@@ -49,6 +54,9 @@ public:
   /// The text of report.json.
   std::string report_text(const Certificate& certificate);
 
+  /// "617 patches", or "3,010 elements of 617 patches (8 rounds, ended by min_edge)".
+  std::string mesh_text(const Certificate& certificate) const;
+
   /// "rung hemicube at 64 (567 hemicubes/s), form factor error 0.01".
   std::string rung_text(const Certificate& certificate) const;
 
@@ -61,7 +69,13 @@ public:
 private:
   template <typename Work> Status compute(Work work);
 
+  Status solve_refined(ProgressReport* progress, Solution* solution, Certificate* certificate);
+
   std::string scene_path_;
+  bool is_refined_ = false;
+  PatchSet coarse_; ///< the patches that were cut
+  ElementTree tree_;
+  RefinementReport refinement_;
   ThreadPool pool_;
   Options options_; ///< the command line's, with the files
   KeptFiles kept_;

@@ -42,6 +42,7 @@ Status read_origin(const std::string& folder, SolutionOrigin* origin) {
     origin->max_edge = at("/result/options/max_edge").get<double>();
   if (at("/result/patches").is_number_unsigned())
     origin->patches = at("/result/patches").get<std::uint64_t>();
+  origin->is_adaptive = at("/result/adaptive").is_object();
   if (at("/result/hashes/scene").is_string())
     origin->scene_hash = at("/result/hashes/scene").get<std::string>();
   return {};
@@ -70,6 +71,15 @@ Status check_origin(const SolutionOrigin& origin, const Session& session) {
                          origin.scene_hash.empty() ? "(none)" : origin.scene_hash, ", ",
                          session.line.scene, " has ", hash, kAdvice);
   return {};
+}
+
+Status follow_refinement(const SolutionOrigin& origin, Session* session) {
+  if (!origin.is_adaptive)
+    return {};
+  const std::string path = path_in(session->line.input, "elements.csv");
+  std::string text;
+  HC_TRY(read_file(path, &text));
+  return session->refine_as(text, path);
 }
 
 Status read_solution(const Session& session, Solution* solution) {

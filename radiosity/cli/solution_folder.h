@@ -13,7 +13,8 @@ struct SolutionOrigin {
   std::string scene;   ///< empty = not told
   double max_edge = 0; ///< metres, from the command line; 0 = as the scene says
   std::optional<std::uint64_t> patches;
-  std::string scene_hash; ///< 16 hexadecimal digits; empty = not told
+  bool is_adaptive = false; ///< the patches are elements
+  std::string scene_hash;   ///< 16 hexadecimal digits; empty = not told
 };
 
 /// @return kBadScene if there is no report, or none that can be read
@@ -26,6 +27,10 @@ Status follow_origin(const SolutionOrigin& origin, CommandLine* line);
 /// Refuses a solution of another scene, or of another mesh of it.
 /// @return kBadScene, saying what to do
 Status check_origin(const SolutionOrigin& origin, const Session& session);
+
+/// Cuts the patches of the session as those of the folder session.line.input were, if they were.
+/// @return as Session::refine_as
+Status follow_refinement(const SolutionOrigin& origin, Session* session);
 
 /// The light of the folder session.line.input, for the scene of the session.
 /// @return as read_patch_table

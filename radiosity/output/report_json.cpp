@@ -105,6 +105,17 @@ Json balance_json(const BalanceReport& balance) {
   return json;
 }
 
+Json refinement_json(const RefinementReport& refinement) {
+  Json json = Json::object();
+  json["patches"] = refinement.patches;
+  json["elements"] = refinement.elements;
+  json["rounds"] = refinement.rounds;
+  json["rows_gathered"] = refinement.rows_gathered;
+  set(&json, "largest_variation", refinement.largest_variation);
+  json["ended_by"] = refinement_end_name(refinement.end);
+  return json;
+}
+
 Json options_json(const ReportParts& parts) {
   const Options& options = parts.options;
   Json json = Json::object();
@@ -119,6 +130,11 @@ Json options_json(const ReportParts& parts) {
   json["balance"] = options.balance;
   if (parts.max_edge != 0)
     json["max_edge"] = parts.max_edge;
+  if (parts.refinement != nullptr) {
+    set(&json, "variation", parts.refinement->limits.variation);
+    set(&json, "min_edge", parts.refinement->limits.min_edge);
+    json["max_elements"] = parts.refinement->limits.max_elements;
+  }
   if (parts.certificate.solved) {
     set(&json, "tolerance", options.tolerance);
     json["max_sweeps"] = options.max_sweeps;
@@ -136,6 +152,8 @@ Json result_json(const ReportParts& parts) {
   Json json = Json::object();
   json["options"] = options_json(parts);
   json["patches"] = certificate.patches;
+  if (parts.refinement != nullptr)
+    json["adaptive"] = refinement_json(*parts.refinement);
   json["hemicubes"] = certificate.hemicubes;
   json["nonzeros"] = certificate.nonzeros;
   json["subpixel_patches"] = certificate.subpixel_patches;

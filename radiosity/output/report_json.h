@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/adaptive.h"
 #include "radiosity/mesh/patch_set.h"
 #include "radiosity/output/certificate.h"
 #include "radiosity/radiosity.h"
@@ -22,6 +23,7 @@ struct ReportParts {
   std::string_view version;
   std::string scene_path = {}; ///< absolute; empty = not told
   double max_edge = 0;         ///< metres, from the command line; 0 = as the scene says
+  const RefinementReport* refinement = nullptr; ///< of adaptive meshing; null without
 };
 
 /// report.json: an object `result`, bit-equal for every thread count, instruction set and compiler,

@@ -1,5 +1,6 @@
 #include "radiosity/output/solution_files.h"
 
+#include "radiosity/output/element_table.h"
 #include "radiosity/output/glb_writer.h"
 #include "radiosity/output/group_table.h"
 #include "radiosity/output/image_writer.h"
@@ -65,6 +66,8 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
   const Solution& solution = parts.solution;
 
   HC_TRY(files->add("patches.csv", patch_table(scene, patches, solution)));
+  if (parts.tree != nullptr)
+    HC_TRY(files->add("elements.csv", element_table(*parts.tree)));
   HC_TRY(files->add("groups.csv", group_table(scene, patches, solution)));
 
   Buffer<float> corner_radiosity;
@@ -95,8 +98,9 @@ Status displayed_values(const PatchSet& patches, const Solution& solution, Pictu
 
 Status begin_solution(FileSet* files, const std::string& folder) {
   HC_TRY(files->begin(folder));
-  for (const char* name : {"patches.csv", "groups.csv", "solution.ply", "solution_float.ply",
-                           "solution.glb", "view.exr", "view.png", "report.json"})
+  for (const char* name :
+       {"patches.csv", "elements.csv", "groups.csv", "solution.ply", "solution_float.ply",
+        "solution.glb", "view.exr", "view.png", "report.json"})
     HC_TRY(files->check_name(name));
   return {};
 }

@@ -16,6 +16,7 @@ struct SolutionParts {
   Camera camera;       ///< the scene's, or fit_camera()
   double exposure = 0; ///< of the display picture; 0 = choose_exposure()
   const raster::Kernels& kernels;
+  const ElementTree* tree = nullptr; ///< of adaptive meshing; null without
 };
 
 /// Chooses the folder of a solution and proves that its files can be written there, before the
@@ -24,7 +25,7 @@ struct SolutionParts {
 Status begin_solution(FileSet* files, const std::string& folder);
 
 /// Writes patches.csv, groups.csv, solution.ply, solution_float.ply, solution.glb, view.exr,
-/// view.png and report.json, and commits them.
+/// view.png and report.json, and with a tree elements.csv, and commits them.
 /// @param report         receives the text of report.json
 /// @param note           receives which files are missing and why: if the image plug-in cannot be
 ///                       loaded, pictures; if it cannot hold the mesh, solution.glb. A solution is
