@@ -27,7 +27,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed solvers growth peers golden check-glb clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed solvers refinement growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -112,6 +112,14 @@ solvers: deps ## sweeps against plain reading, error against sweeps and time, in
 	@if command -v gnuplot >/dev/null; then for table in bench/results/*/convergence.csv; do \
 	  gnuplot -e "folder='$$(dirname $$table)'" bench/solvers/plot.gp; done; \
 	else echo "solvers: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
+
+refinement: deps ## error against number of elements, uniform and adaptive meshes, into bench/results
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target refinement_bench
+	@$(BUILD)/refinement_bench bench/results
+	@if command -v gnuplot >/dev/null; then for table in bench/results/*/refinement.csv; do \
+	  gnuplot -e "folder='$$(dirname $$table)'" bench/refinement/plot.gp; done; \
+	else echo "refinement: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
 
 GROWTH_OPTIONS ?= --rung hemicube --resolution 128 --threads 2
 growth: deps ## time and memory of whole runs of the program on larger and larger scenes, into bench/results
