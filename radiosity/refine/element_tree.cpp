@@ -11,6 +11,8 @@ namespace {
 
 /// A quad this much longer than wide is cut across its length only.
 constexpr double kLong = 1.5;
+/// Square metres, many times more than an area whose square is 0 in double precision.
+constexpr double kSmallestArea = 0x1p-500;
 
 } // namespace
 
@@ -81,7 +83,7 @@ std::uint32_t ElementTree::pieces_of(std::uint32_t leaf, double min_edge) const 
   // smallest corner's area. What is resolved with 64 times the doubt is resolved after the cut.
   PolygonShape shape = measure_polygon(points);
   shape.resolution *= 64;
-  if (!has_area(points, shape))
+  if (shape.area < kSmallestArea || !has_area(points, shape))
     return 0;
   return count == 3 ? 4 : count == 4 ? (cut.along_0 && cut.along_1 ? 4 : 2) : count;
 }
