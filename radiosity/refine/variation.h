@@ -14,7 +14,9 @@ namespace hemicube::radiosity {
 /// @param elements   T-vertices of refinement are corners on both sides (ElementTree::make_mesh)
 /// @param radiosity  [element][band] W/m^2
 /// @param scale      [band] W/m^2; a band with 0 does not count
-/// @param variation  receives [element], >= 0; 0 without a neighbour
+/// @param variation  receives [element], >= 0; of one without a neighbour, what it reflects in
+/// units
+///                   of `scale`: nothing tells how that is spread
 /// @return as build_half_edges
 /// Deterministic: + - * / sqrt only.
 Status find_variation(const PatchSet& elements, std::span<const double> radiosity,
