@@ -1,6 +1,8 @@
 #include "radiosity/output/element_table.h"
 
 #include "radiosity/output/csv_reader.h"
+
+#include <algorithm>
 #include <charconv>
 #include <vector>
 
@@ -67,7 +69,8 @@ Status read_element_table(std::string_view text, const std::string& path, Elemen
   CsvReader reader(text);
   std::vector<std::string> fields;
   const auto refuse = [&](const auto&... what) {
-    return Status::error(StatusCode::kBadScene, path, ":", reader.line(), ": ", what..., kAdvice);
+    return Status::error(StatusCode::kBadScene, path, ":",
+                         std::max<std::uint64_t>(reader.line(), 1), ": ", what..., kAdvice);
   };
   if (!reader.next(&fields) || fields != std::vector<std::string>{"patch", "path"})
     return refuse("the first line is not patch,path");
@@ -82,6 +85,8 @@ Status read_element_table(std::string_view text, const std::string& path, Elemen
       return refuse("patch ", patch, " has no element '", fields[1], "'");
     read += line(patch, fields[1]);
   }
+  if (!text.ends_with('\n')) // a last line of an element may become that of its patch
+    return refuse("the line is cut off");
   if (element_table(*tree) != read)
     return refuse("elements are missing, named twice or out of order");
   return {};
