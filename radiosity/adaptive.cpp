@@ -53,7 +53,7 @@ private:
     return side == 0 ? tree_.patch_of(node) : back_of_[tree_.patch_of(node)];
   }
   void cut(const std::vector<std::uint32_t>& wanted, std::vector<std::uint32_t>* cut);
-  bool cut_one(std::uint32_t leaf, double min_edge, std::vector<std::uint32_t>* cut);
+  bool cut_one(std::uint32_t leaf, std::vector<std::uint32_t>* cut);
 
   const Scene& scene_;
   const PatchSet& patches_;
@@ -266,8 +266,8 @@ Status AdaptiveSolver::refine(const PatchSet& elements, const FormFactorMatrix& 
   return gather(cut_nodes);
 }
 
-bool AdaptiveSolver::cut_one(std::uint32_t leaf, double min_edge, std::vector<std::uint32_t>* cut) {
-  const std::uint64_t pieces = tree_.pieces_of(leaf, min_edge);
+bool AdaptiveSolver::cut_one(std::uint32_t leaf, std::vector<std::uint32_t>* cut) {
+  const std::uint64_t pieces = tree_.pieces_of(leaf, limits_.min_edge);
   if (pieces == 0)
     return false;
   if (tree_.element_count() + (pieces - 1) * tree_.side_count(leaf) > limits_.max_elements) {
@@ -279,16 +279,17 @@ bool AdaptiveSolver::cut_one(std::uint32_t leaf, double min_edge, std::vector<st
   return true;
 }
 
-/// Cuts what is wanted, then what would be too coarse beside it.
+/// Cuts what is wanted, then what would be too coarse beside it, but for slender shapes that
+/// min_edge does not allow to be cut.
 void AdaptiveSolver::cut(const std::vector<std::uint32_t>& wanted,
                          std::vector<std::uint32_t>* cut) {
   for (const std::uint32_t leaf : wanted)
-    if (!cut_one(leaf, limits_.min_edge, cut))
+    if (!cut_one(leaf, cut))
       break; // there are enough elements
   for (bool is_done = false; !is_done;) {
     is_done = true;
     for (const std::uint32_t leaf : tree_.uneven_leaves())
-      if (cut_one(leaf, 0, cut))
+      if (cut_one(leaf, cut))
         is_done = false;
   }
 }
