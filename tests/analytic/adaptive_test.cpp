@@ -1,54 +1,13 @@
-// Adaptive meshing: what must not change, what must not be cut, where it ends, and whether it
-// helps.
+// Adaptive meshing: what must not change, what must not be cut, and whether it helps.
 
-#include "radiosity/adaptive.h"
 #include "radiosity/output/element_table.h"
-#include "radiosity/parallel/thread_pool.h"
+#include "tests/analytic/adaptive_support.h"
 #include "tests/support/reference.h"
-#include "tests/support/solved.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include <cstdio>
 
 namespace hemicube::test {
 namespace {
-
-using radiosity::Options;
-using radiosity::Refinement;
-using radiosity::RefinementEnd;
-using radiosity::Rung;
-
-struct Adapted {
-  PatchSet patches, elements;
-  radiosity::ElementTree tree;
-  radiosity::Solution solution;
-  radiosity::Certificate certificate;
-  radiosity::RefinementReport report;
-  Status status;
-};
-
-/// Fills all of `result`, which keeps to its place: the tree refers to its patches, and to `scene`.
-void adapt(const Scene& scene, const Refinement& refinement, const Options& options,
-           Adapted* result, std::uint32_t threads = 2) {
-  radiosity::ThreadPool pool;
-  require(pool.init(threads));
-  result->patches = patches_of(scene);
-  result->status = radiosity::solve_adaptive(
-      scene, result->patches, refinement, options, pool, nullptr, &result->tree, &result->elements,
-      &result->solution, &result->certificate, &result->report);
-}
-
-Options on_rung(Rung rung, std::uint32_t resolution = 64) {
-  Options options;
-  options.rung = rung;
-  options.resolution = resolution;
-  return options;
-}
-
-Refinement limits(double variation, double min_edge = 0, std::uint64_t max_elements = 20000) {
-  return {variation, min_edge, max_elements};
-}
 
 void expect_same_solution(const radiosity::Solution& a, const radiosity::Solution& b) {
   EXPECT_TRUE(same_bits(a.radiosity.span(), b.radiosity.span()));
@@ -56,35 +15,6 @@ void expect_same_solution(const radiosity::Solution& a, const radiosity::Solutio
   EXPECT_TRUE(same_bits(a.row_sum.span(), b.row_sum.span()));
   EXPECT_TRUE(same_bits(a.space.span(), b.space.span()));
   EXPECT_TRUE(same_bits(a.back_side.span(), b.back_side.span()));
-}
-
-double shortest_edge(const PatchSet& mesh) {
-  double shortest = 1e300;
-  for (std::uint32_t e = 0; e < mesh.patch_count(); ++e) {
-    const auto corners = mesh.corners_of(e);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      shortest = std::min(shortest, glm::length(mesh.vertices[corners[k]] -
-                                                mesh.vertices[corners[(k + 1) % corners.size()]]));
-  }
-  return shortest;
-}
-
-/// A closed room 2 x 1 x 1 under a lamp of 8 patches, with a two-sided screen in it that throws a
-/// shadow; scaled, then moved.
-Scene shadow_room(double scale = 1, const Vec3& move = {0, 0, 0}) {
-  SceneBuilder builder(1);
-  const auto at = [&](double x, double y, double z) { return scale * Vec3(x, y, z) + move; };
-  const std::uint32_t wall = builder.material("wall", 0.5, 0);
-  const std::uint32_t lamp = builder.material("lamp", 0.2, 10);
-  const std::uint32_t screen = builder.material("screen", 0.4, 0);
-  builder.two_sided(screen);
-  const auto box = [&](const Vec3& low, const Vec3& high) {
-    builder.box({wall, wall, wall, wall, wall, lamp}, low, high, {4, 2, 2}, true);
-  };
-  box(at(0, 0, 0), at(2, 1, 1));
-  builder.face(
-      screen, {at(0.75, 0.25, 0.5), at(1.25, 0.25, 0.5), at(1.25, 0.75, 0.5), at(0.75, 0.75, 0.5)});
-  return builder.finish();
 }
 
 // Catches: rows, backs or black patches that take another way through the matrix of elements; a
@@ -170,138 +100,43 @@ TEST(Adaptive, BitsAreTheSameForAllThreadsAndKernels) {
     }
 }
 
-// Catches: a bound that cuts, or the cuts that even neighbours out, are let past; an end that is
-// not told.
-TEST(Adaptive, ThereAreNeverMoreElementsThanAllowed) {
-  const Scene scene = shadow_room();
-  const std::uint32_t patches = patches_of(scene).patch_count();
-  for (const std::uint32_t more : {0u, 1u, 2u, 3u, 4u, 7u, 20u, 61u, 150u}) {
-    Adapted adapted;
-    adapt(scene, limits(0.05, 0.01, patches + more), on_rung(Rung::kHemicube, 32), &adapted);
-    ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-    EXPECT_LE(adapted.elements.patch_count(), patches + more);
-    EXPECT_GE(adapted.elements.patch_count() + 7, patches + more) << "fewer than there is room for";
-    EXPECT_EQ(adapted.elements.patch_count(), adapted.report.elements);
-    EXPECT_EQ(adapted.report.end, RefinementEnd::kMaxElements);
-  }
-  Adapted adapted;
-  adapt(scene, limits(0.05, 0.01, patches - 1), {}, &adapted);
-  EXPECT_EQ(adapted.status.code(), StatusCode::kInvalidArgument);
-  EXPECT_NE(adapted.status.message().find(std::to_string(patches)), std::string::npos);
-}
-
-// Catches: limits that are compared the wrong way round with NaN.
-TEST(Adaptive, LimitsThatMakeNoSenseAreRefused) {
-  const Scene scene = furnace_cube(1, 0.5, 1);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const Refinement& refinement :
-       {limits(0), limits(-1), limits(nan), limits(infinity), limits(0.1, -1), limits(0.1, nan),
-        limits(0.1, infinity), limits(0.1, 0, 0)}) {
-    Adapted adapted;
-    adapt(scene, refinement, {}, &adapted);
-    EXPECT_EQ(adapted.status.code(), StatusCode::kInvalidArgument)
-        << refinement.variation << " " << refinement.min_edge << " " << refinement.max_elements;
-  }
-}
-
-// The light at the edge of two plates changes ever more on the way to it: by as much across any
-// element beside it, however small. Catches: refinement that does not end there, or ends elsewhere.
-TEST(Adaptive, EndsAtTheEdgeOfTwoPlates) {
-  SceneBuilder builder(1);
-  const std::uint32_t grey = builder.material("grey", 0.5, 0);
-  const std::uint32_t lamp = builder.material("lamp", 0.5, 1);
-  builder.grid(grey, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 2, 2);
-  builder.grid(lamp, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 2, 2);
-  const Scene scene = builder.finish();
-  Adapted adapted;
-  adapt(scene, limits(0.3, 0.03), on_rung(Rung::kArea), &adapted);
-  ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-  EXPECT_TRUE(adapted.report.end == RefinementEnd::kMinEdge ||
-              adapted.report.end == RefinementEnd::kVariation)
-      << radiosity::refinement_end_name(adapted.report.end);
-  EXPECT_GT(adapted.elements.patch_count(), 16u);
-  EXPECT_LT(adapted.elements.patch_count(), 1000u) << "2048 would be cut evenly";
-  const double smallest = shortest_edge(adapted.elements);
-  EXPECT_GE(smallest, 0.03);
-  EXPECT_LE(smallest, 0.13) << "not refined at the edge";
-}
-
-// A slender triangle along a floor that is cut finely. Catches: cuts that even neighbours out
-// without a look at min_edge.
-TEST(Adaptive, NoCutLeavesAShorterEdgeThanAllowed) {
-  SceneBuilder builder(1);
-  const std::uint32_t grey = builder.material("grey", 0.5, 0);
-  const std::uint32_t lamp = builder.material("lamp", 0, 1);
-  builder.face(grey, {{0, -1, 0}, {1, -1, 0}, {1, 0, 0}, {0, 0, 0}});
-  builder.face(grey, {{0, 0, 0}, {1, 0, 0}, {0.02, 0.08, 0}});
-  builder.face(lamp, {{0, -1, 0}, {0, 0, 0}, {0, 0, 1}, {0, -1, 1}});
-  const Scene scene = builder.finish();
-  Adapted adapted;
-  adapt(scene, limits(0.1, 0.05), on_rung(Rung::kArea), &adapted);
-  ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-  EXPECT_GT(adapted.elements.patch_count(), 50u);
-  EXPECT_GE(shortest_edge(adapted.elements), 0.05);
-}
-
-// Catches: division by no light, or by no reflecting area; black surfaces and lamps that are cut.
-TEST(Adaptive, WithoutReflectedLightNothingIsCut) {
-  const struct {
-    const char* name;
-    double reflectance, exitance;
-  } cases[] = {{"unlit", 0.5, 0}, {"black", 0, 0}, {"lamps", 0, 3}};
-  for (const auto& made : cases) {
+// Catches: a mean over black surfaces, too: with a large one that no light reaches the variation
+// would be many times as large.
+TEST(Adaptive, VariationIsInUnitsOfWhatReflectingSurfacesReflect) {
+  Adapted adapted[2];
+  Scene scenes[2];
+  for (const bool has_black : {false, true}) {
     SceneBuilder builder(1);
-    const std::uint32_t all = builder.material("all", made.reflectance, made.exitance);
-    builder.box({all, all, all, all, all, all}, {0, 0, 0}, {1, 1, 2}, {1, 2, 1}, true);
-    const Scene scene = builder.finish();
-    Adapted adapted;
-    adapt(scene, limits(0.01), on_rung(Rung::kHemicube, 32), &adapted);
-    ASSERT_TRUE(adapted.status.ok()) << made.name << ": " << adapted.status.message();
-    EXPECT_EQ(adapted.report.rounds, 0u) << made.name;
-    EXPECT_EQ(adapted.report.largest_variation, 0) << made.name;
-    for (const double b : adapted.solution.radiosity)
-      EXPECT_EQ(b, made.exitance) << made.name;
+    const std::uint32_t grey = builder.material("grey", 0.5, 0);
+    const std::uint32_t lamp = builder.material("lamp", 0.5, 1);
+    const std::uint32_t black = builder.material("black", 0, 0);
+    builder.grid(grey, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 2, 2);
+    builder.grid(lamp, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 2, 2);
+    if (has_black) // below the floor, turned away
+      builder.face(black, {{-9, -9, -9}, {-9, 9, -9}, {9, 9, -9}, {9, -9, -9}});
+    scenes[has_black] = builder.finish();
+    adapt(scenes[has_black], limits(0.5, 0.05), on_rung(Rung::kHemicube), &adapted[has_black]);
+    ASSERT_TRUE(adapted[has_black].status.ok()) << adapted[has_black].status.message();
   }
+  EXPECT_GT(adapted[0].report.rounds, 0u);
+  EXPECT_EQ(radiosity::element_table(adapted[0].tree) + "8,\n",
+            radiosity::element_table(adapted[1].tree));
+  EXPECT_NEAR(adapted[0].report.largest_variation, adapted[1].report.largest_variation, 1e-3);
 }
 
-// Catches: one patch, whose neighbours and rows are none.
-TEST(Adaptive, OnePatchIsAScene) {
-  SceneBuilder builder(1);
-  builder.face(builder.material("lamp", 0.5, 4), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  const Scene scene = builder.finish();
+// Catches: elements cut after the pixels of one point.
+TEST(Adaptive, TheRungChosenIsNoLowerThanArea) {
+  const Scene scene = shadow_room();
+  Options options;
+  options.choose_rung = options.choose_resolution = options.estimate_error = true;
+  options.error = 0.5;
+  ASSERT_LT(solve(scene, options, 2).certificate.setting.rung, Rung::kArea);
   Adapted adapted;
-  adapt(scene, limits(0.01), on_rung(Rung::kArea), &adapted);
+  adapt(scene, limits(0.5, 0.1), options, &adapted);
   ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-  EXPECT_EQ(adapted.elements.patch_count(), 1u);
-  EXPECT_EQ(adapted.solution.radiosity[0], 4.0);
-}
-
-// Catches: edges with three sheets, surfaces that pass through each other: neighbours that are not
-// found, elements that are lost, refinement without end.
-TEST(Adaptive, SurfacesThatMeetAnyhowAreRefined) {
-  SceneBuilder builder(1);
-  const std::uint32_t grey = builder.material("grey", 0.5, 0);
-  const std::uint32_t lamp = builder.material("lamp", 0, 5);
-  const std::uint32_t screen = builder.material("screen", 0.5, 0);
-  builder.two_sided(screen);
-  builder.grid(grey, {0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, 2, 1);
-  builder.face(screen, {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}); // third on the edge
-  builder.face(screen, {{0.5, 0.2, -0.5}, {1.5, 0.2, 0.5}, {1.5, 0.8, 0.5}, {0.5, 0.8, -0.5}});
-  builder.face(lamp, {{0, 0, 2}, {0, 1, 2}, {2, 1, 2}, {2, 0, 2}});
-  const Scene scene = builder.finish();
-  Adapted adapted;
-  adapt(scene, limits(0.2, 0.1, 400), on_rung(Rung::kArea, 32), &adapted);
-  ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-  EXPECT_GT(adapted.report.rounds, 0u);
-  double actual = 0, expected = 0;
-  for (const double area : adapted.elements.area)
-    actual += area;
-  for (const double area : adapted.patches.area)
-    expected += area;
-  EXPECT_NEAR(actual, expected, 1e-12);
-  for (const double b : adapted.solution.radiosity)
-    EXPECT_TRUE(b >= 0 && b <= 5) << b;
+  EXPECT_EQ(adapted.certificate.setting.rung, Rung::kArea);
+  EXPECT_TRUE(adapted.certificate.has_radiosity_error);
+  EXPECT_LT(adapted.certificate.radiosity_error, 0.1);
 }
 
 // Catches: lengths in metres where they should be in sizes of the scene; a chosen min_edge that is
