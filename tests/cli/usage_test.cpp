@@ -79,12 +79,6 @@ TEST_F(UsageTest, UnknownCommandsAndOptionsAreNamed) {
   expect_refused(2, {"look", scene}, {"--patch", "--face"});
 }
 
-TEST_F(UsageTest, CommandsOfOtherVersionsAreNotOffered) {
-  const std::string scene = write_room();
-  for (const std::string option : {"--rung", "--error", "--adaptive"})
-    expect_refused(2, {"solve", scene, option}, {option});
-}
-
 TEST_F(UsageTest, ValuesOutOfRangeAreNamedWithTheRange) {
   const std::string scene = write_room();
   for (const std::string value :
