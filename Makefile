@@ -21,6 +21,9 @@ APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout
 missing = $(shell command -v dpkg-query >/dev/null && for p in $(1); do \
   dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done)
 
+# What the build folder was configured with, in the shell: determinism need not build that again.
+cached = $$(sed -n 's/^$(1):[A-Z]*=//p' $(BUILD)/CMakeCache.txt 2>/dev/null)
+
 define install
 @set -e; missing="$(call missing,$(1))"; if [ -n "$$missing" ]; then \
   echo "$(SUDO) apt-get update && $(SUDO) $(APT_INSTALL) $$missing"; \
@@ -62,9 +65,14 @@ format-check: deps-check ## fail if a source is not formatted
 
 determinism: deps deps-check ## the golden hashes with g++ and clang++, Debug and Release
 	@set -e; for compiler in g++ clang++; do for type in Debug Release; do \
-	  dir=$(BUILD)/determinism/$$compiler-$$type; \
-	  cmake -S . -B $$dir -DCMAKE_CXX_COMPILER=$$compiler -DCMAKE_BUILD_TYPE=$$type \
-	    -DHEMICUBE_TESTS=ON >/dev/null; \
+	  set -- $(call cached,CMAKE_BUILD_TYPE) $(call cached,CMAKE_CXX_COMPILER) $(call cached,HEMICUBE_TESTS); \
+	  if [ "$$1 $$(readlink -f "$$2") $$3" = "$$type $$(readlink -f "$$(command -v $$compiler)") ON" ]; then \
+	    dir=$(BUILD); \
+	  else \
+	    dir=$(BUILD)/determinism/$$compiler-$$type; \
+	    cmake -S . -B $$dir -DCMAKE_CXX_COMPILER=$$compiler -DCMAKE_BUILD_TYPE=$$type \
+	      -DHEMICUBE_TESTS=ON >/dev/null; \
+	  fi; \
 	  cmake --build $$dir --parallel $(JOBS) --target golden_test; \
 	  echo "== $$compiler $$type"; $$dir/tests/golden_test --gtest_brief=1; done; done
 
