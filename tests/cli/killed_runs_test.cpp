@@ -118,6 +118,15 @@ protected:
     return {};
   }
 
+  /// Files there are, but for those that a run was writing aside when it was killed.
+  std::set<std::string> finished_files() const {
+    std::set<std::string> files = new_files();
+    std::erase_if(files, [](const std::string& name) {
+      return name.find(".hemicube-") != std::string::npos;
+    });
+    return files;
+  }
+
   static void expect_said(const std::string& text, const Words& parts) {
     for (const std::string& part : parts)
       EXPECT_NE(text.find(part), std::string::npos) << "expected '" << part << "' in: " << text;
@@ -134,7 +143,7 @@ TEST_F(KilledRunsTest, KilledFormFactorsGoOnUntilTheyEnd) {
   const Json last = run_through_signals(slow({"formfactors", "-o", path("f.hcf")}), "f.hcf", 1);
   EXPECT_EQ(last["result"], expected["result"]);
   EXPECT_GT(last["run"]["rows_resumed"], 0);
-  EXPECT_EQ(new_files(), (std::set<std::string>{"f.hcf", "f.rows.csv"}));
+  EXPECT_EQ(finished_files(), (std::set<std::string>{"f.hcf", "f.rows.csv"}));
   const Json solved = report({"solve", scene_, "--max-edge", "0.0625", "--form-factors",
                               path("f.hcf"), "--json", "--no-black-irradiance"});
   EXPECT_EQ(solved["result"]["hashes"]["form_factors"],
@@ -147,7 +156,7 @@ TEST_F(KilledRunsTest, AKilledSolveGoesOnUntilItEnds) {
       run_through_signals(slow({"solve", "-o", path("out")}), "out/form_factors.hcf", 2);
   EXPECT_EQ(last["result"], expected["result"]);
   EXPECT_GT(last["run"]["rows_resumed"], 0);
-  EXPECT_EQ(new_files(),
+  EXPECT_EQ(finished_files(),
             (std::set<std::string>{"out/", "out/groups.csv", "out/patches.csv", "out/report.json",
                                    "out/solution.glb", "out/solution.ply", "out/solution_float.ply",
                                    "out/view.exr", "out/view.png"}));
