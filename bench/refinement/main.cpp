@@ -113,8 +113,9 @@ private:
              double seconds, const Solution& solution, const Certificate& certificate) {
     const std::size_t bands = solution.band_count;
     char line[256];
-    std::snprintf(line, sizeof line, "%s,%s,%u,%" PRIu64 ",%" PRIu64 ",%.3g,%.3e,%016" PRIx64 "\n",
-                  name_.c_str(), mesh, elements.patch_count(), rounds, rows, seconds,
+    std::snprintf(line, sizeof line,
+                  "%s,%s,%s,%u,%" PRIu64 ",%" PRIu64 ",%.3g,%.3e,%016" PRIx64 "\n", name_.c_str(),
+                  rung_name(options_.rung), mesh, elements.patch_count(), rounds, rows, seconds,
                   truth_.error(elements, solution.radiosity.span(), bands),
                   certificate.radiosity_hash);
     std::fputs(line, stdout);

@@ -177,11 +177,11 @@ private:
   }
 
   void add_solve() {
-    CLI::App* sub =
-        add_command(Command::kSolve, "solve",
-                    "Compute the light in a scene: patches.csv, groups.csv, solution.ply, "
-                    "solution_float.ply, solution.glb, "
-                    "view.exr, view.png, report.json");
+    CLI::App* sub = add_command(Command::kSolve, "solve",
+                                "Compute the light in a scene: patches.csv, elements.csv "
+                                "(adaptive), groups.csv, solution.ply, "
+                                "solution_float.ply, solution.glb, "
+                                "view.exr, view.png, report.json");
     add_scene(sub, &line_);
     add_path(sub, "-o", "DIR", "folder for the files [none: print a summary only]", &line_.output);
     sub->add_flag_callback(

@@ -24,8 +24,7 @@ public:
          std::span<const std::uint8_t> is_straight, const DisplayBands& bands,
          const CameraView& camera)
       : scene_(scene), patches_(patches), values_(values), is_straight_(is_straight), bands_(bands),
-        camera_(camera),
-        divisor_(values.quantity == Quantity::kRadiance ? kPi : 1) {}
+        camera_(camera), divisor_(values.quantity == Quantity::kRadiance ? kPi : 1) {}
 
   /// The value of a patch in a sample of the grid; NaN if it is not known.
   Vec3 value(std::uint32_t patch, std::int32_t x, std::int32_t y) const {

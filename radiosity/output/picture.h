@@ -33,8 +33,8 @@ struct PictureSetting {
 };
 
 /// Draws values of a solution from a camera, samples x samples a pixel averaged in linear light.
-/// Back faces are not drawn. A point of a patch shows the interpolation (interpolation.h) of its corner
-/// values; a patch without a known value is background.
+/// Back faces are not drawn. A point of a patch shows the interpolation (interpolation.h) of its
+/// corner values; a patch without a known value is background.
 /// @return kInvalidArgument for a camera that shows nothing; kOutOfMemory
 /// Deterministic: + - * / sqrt only, in a fixed order: equal for any executor and kernels.
 Status draw_picture(const Scene& scene, const PatchSet& patches, const PictureValues& values,
