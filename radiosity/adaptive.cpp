@@ -118,14 +118,10 @@ Status AdaptiveSolver::begin() {
       back_of_[front] = back++;
 
   LightModel light;
-  Buffer<double> guess;
   HC_TRY(light.init(scene_, patches_));
   const LightProblem problem = light.problem(patches_);
   HC_TRY(geometry_.init(patches_));
-  HC_TRY(guess_light(problem, &guess));
-  HC_TRY(light_guess_.resize(patches_.patch_count()));
-  for (std::size_t k = 0; k < guess.size(); ++k)
-    light_guess_[k / problem.band_count] += guess[k];
+  HC_TRY(guess_patch_light(problem, &light_guess_));
   setting_ = {options_.rung, options_.resolution, options_.error};
   HC_TRY(Dial(&geometry_, &problem, options_, executor_).choose(&setting_));
   // The pixels of one point make light vary that does not: it would be cut after.

@@ -99,6 +99,16 @@ Status guess_light(const LightProblem& p, Buffer<double>* light) {
   return {};
 }
 
+Status guess_patch_light(const LightProblem& p, Buffer<double>* light) {
+  Buffer<double> bands;
+  HC_TRY(guess_light(p, &bands));
+  light->clear();
+  HC_TRY(light->resize(p.patch_count()));
+  for (std::size_t k = 0; k < bands.size(); ++k)
+    (*light)[k / p.band_count] += bands[k];
+  return {};
+}
+
 Status choose_sample(const LightProblem& problem, std::span<const double> radiosity,
                      std::span<const double> doubt, RowSample* sample) {
   const std::uint32_t bands = problem.band_count;

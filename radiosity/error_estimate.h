@@ -13,6 +13,10 @@ inline constexpr std::uint32_t kErrorSampleRows = 64;
 /// @param light  out, [patch][band], W/m^2
 Status guess_light(const LightProblem& problem, Buffer<double>* light);
 
+/// The same, all bands together: what rows are told of the light (LadderSetup::light).
+/// @param light  out, [patch]
+Status guess_patch_light(const LightProblem& problem, Buffer<double>* light);
+
 /// Chooses a sample for estimate_radiosity_error: by the light that patches reflect, and by how
 /// wrong that may be.
 /// @param doubt  [patch], RowFacts::doubt

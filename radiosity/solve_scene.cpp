@@ -120,14 +120,8 @@ Status SceneSolver::choose_setting() {
   if (rows_are_given())
     return {};
   setting_ = {options_.rung, options_.resolution, options_.error};
-  if (options_.estimate_error) {
-    Buffer<double> light;
-    const std::uint32_t bands = problem_.band_count;
-    HC_TRY(guess_light(problem_, &light));
-    HC_TRY(light_guess_.resize(patches_.patch_count()));
-    for (std::size_t k = 0; k < light.size(); ++k)
-      light_guess_[k / bands] += light[k];
-  }
+  if (options_.estimate_error)
+    HC_TRY(guess_patch_light(problem_, &light_guess_));
   HC_TRY(dial_.choose(&setting_));
   HC_TRY(kept_.past_rounds(&found_));
   bool is_finer = true;
