@@ -1,5 +1,6 @@
 #include "radiosity/output/vertex_radiosity.h"
 
+#include "radiosity/mesh/one_surface.h"
 #include "radiosity/mesh/straight_corners.h"
 #include "radiosity/output/balanced_weights.h"
 #include "radiosity/output/shared_vertices.h"
@@ -9,7 +10,6 @@
 namespace hemicube::radiosity {
 namespace {
 
-constexpr double kMinCosine = 0.99;
 constexpr double kMaxStretch = 3;
 constexpr std::size_t kMaxMeeting = 512;
 constexpr std::uint32_t kNone = 0xffffffffu;
@@ -80,11 +80,6 @@ private:
     return begin + (corner - begin + steps) % corner_count_of(corner);
   }
 
-  bool is_one_surface(std::uint32_t patch, std::uint32_t other) const {
-    return patches_.material[patch] == patches_.material[other] &&
-           glm::dot(patches_.normal[patch], patches_.normal[other]) > kMinCosine;
-  }
-
   /// Names the surfaces at every position by their lowest corner. Being one surface is handed on
   /// from patch to patch: on a finely bent surface the two sides of an edge would else take their
   /// means over different patches.
@@ -99,7 +94,8 @@ private:
       for (std::size_t i = 1; i < meeting.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
           if (surface_[meeting[j]] != surface_[meeting[i]] &&
-              is_one_surface(shared_.corner_patch[meeting[j]], shared_.corner_patch[meeting[i]]))
+              are_one_surface(patches_, shared_.corner_patch[meeting[j]],
+                              shared_.corner_patch[meeting[i]]))
             join_surfaces(meeting.first(i + 1), surface_[meeting[j]], surface_[meeting[i]]);
     }
     return {};

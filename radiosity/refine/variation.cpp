@@ -1,5 +1,6 @@
 #include "radiosity/refine/variation.h"
 
+#include "radiosity/mesh/one_surface.h"
 #include "radiosity/mesh/openmesh_topology.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@ namespace {
 
 /// Of more elements on one edge only so many are compared: work stays linear.
 constexpr int kMostOnEdge = 64;
-constexpr double kMinCosine = 0.99; ///< as where vertex radiosities are averaged
 
 /// Neighbours on the same surface, each once per common edge.
 class Neighbours {
@@ -32,8 +32,9 @@ public:
       do {
         for (const unsigned side : {0u, 1u}) {
           const OpenMesh::FaceHandle face = mesh.face_handle(mesh.halfedge_handle(edge, side));
-          if (face.is_valid() && are_smooth(element, static_cast<std::uint32_t>(face.idx())))
-            visit(static_cast<std::uint32_t>(face.idx()), middle);
+          const auto other = static_cast<std::uint32_t>(face.idx());
+          if (face.is_valid() && other != element && are_one_surface(elements_, element, other))
+            visit(other, middle);
         }
         edge = half_edges_.next_coincident[static_cast<std::size_t>(edge.idx())];
       } while (edge != first && ++count < kMostOnEdge);
@@ -41,11 +42,6 @@ public:
   }
 
 private:
-  bool are_smooth(std::uint32_t a, std::uint32_t b) const {
-    return a != b && elements_.material[a] == elements_.material[b] &&
-           glm::dot(elements_.normal[a], elements_.normal[b]) > kMinCosine;
-  }
-
   const PatchSet& elements_;
   HalfEdges half_edges_;
 };
