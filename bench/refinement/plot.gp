@@ -18,7 +18,7 @@ do for [type in "svg png"] {
       set title word(scenes, s) noenhanced
       set xlabel field eq "4" ? "elements" : "seconds of the processor"
       set ylabel "relative RMS error of B"
-      if (s == 1) { set key top right } else { unset key }
+      if (s == 3) { set key top right } else { unset key }
       plot table using (of(word(scenes, s), "adaptive", "uniform", column(int(field)))):8 with linespoints lc rgb "#2060b0" lw 1.5 pt 7 ps 0.5 title "uniform, rung adaptive", \
            table using (of(word(scenes, s), "adaptive", "adaptive", column(int(field)))):8 with linespoints lc rgb "#c03028" lw 1.5 pt 7 ps 0.5 title "adaptive mesh, rung adaptive", \
            table using (of(word(scenes, s), "area", "uniform", column(int(field)))):8 with linespoints lc rgb "#2060b0" dt 3 pt 6 ps 0.5 title "uniform, rung area", \
