@@ -49,6 +49,15 @@ std::string space_text(const Scene& scene) {
   return text.empty() ? "dark" : "exitance W/m^2: " + text;
 }
 
+std::string discontinuity_text(const DiscontinuityReport& cut) {
+  return concat(cut.patches, " patches cut into ", cut.elements, " along ",
+                counted(cut.contact_lines, "line", "lines"), " of contact and ",
+                counted(cut.shadow_lines, "border", "borders"), " of shadows (",
+                counted(cut.wedges, "wedge", "wedges"), "), of ", cut.emitters_treated, " of ",
+                counted(cut.emitters, "emitter", "emitters"), " with ",
+                rounded(100 * cut.power_treated), " % of the power");
+}
+
 std::string camera_text(const Scene& scene) {
   if (!scene.has_camera)
     return "none in the scene: fitted outside the bounds";
@@ -90,6 +99,8 @@ void print_text(const Session& session, const SceneFacts& facts) {
   print_line("patches",
              concat(count, ": ", patches.front_count, " fronts, ", count - patches.front_count,
                     " backs of two-sided faces; area ", rounded(facts.area)));
+  if (session.line.mesh.discontinuity)
+    print_line("discontinuity", discontinuity_text(session.loaded.discontinuities));
   print_line("bounds", concat(vector_text(facts.low), " .. ", vector_text(facts.high)));
   print_line("bands", bands_text(scene, facts));
   print_line("black", concat(counted(facts.black_patches, "patch reflects", "patches reflect"),

@@ -86,6 +86,9 @@ Status run_render(const CommandLine& given) {
       HC_TRY(follow_origin(origin, &line));
     }
   }
+  if (line.picture.wedges && !line.mesh.discontinuity)
+    return Status::error(StatusCode::kInvalidArgument,
+                         "--wedges: needs --discontinuity, or a solution made with it");
   Session session(line);
   HC_TRY(session.begin(is_solved ? line.scene : line.input));
   Film film(&session);

@@ -1,6 +1,7 @@
 #include "radiosity/cli/film.h"
 
 #include "radiosity/cli/console.h"
+#include "radiosity/cli/wedge_layer.h"
 #include "radiosity/output/false_color_image.h"
 #include "radiosity/output/image_writer.h"
 #include "radiosity/output/mesh_lines.h"
@@ -77,6 +78,8 @@ Status Film::add(const Camera& camera, const std::string& name, FileSet* files) 
   else
     HC_TRY(tone_image(picture, tone_, &image));
   draw_mesh_lines(picture, &image);
+  if (wish_.wedges)
+    HC_TRY(draw_wedges(&session_, camera, &image));
   if (wish_.false_color)
     HC_TRY(add_legend(scale_, picture.quantity, &image));
   width_ = image.width;

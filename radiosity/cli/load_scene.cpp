@@ -12,7 +12,8 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
-Status mesh(double max_edge, LoadedScene* loaded) {
+Status mesh(const MeshOptions& options, LoadedScene* loaded) {
+  const double max_edge = options.max_edge;
   const Scene& scene = loaded->scene;
   PatchSet* patches = &loaded->patches;
   HC_TRY(build_patches(scene, patches, &loaded->mesh));
@@ -28,18 +29,25 @@ Status mesh(double max_edge, LoadedScene* loaded) {
     *patches = {};
     HC_TRY(subdivide(coarse, limits, patches, &loaded->mesh));
   }
+  if (options.discontinuity) {
+    PatchSet whole = std::move(*patches);
+    *patches = {};
+    HC_TRY(cut_discontinuities(scene, whole, options.limits, patches, &loaded->lines,
+                               &loaded->discontinuities));
+  }
   HC_TRY(add_back_sides(scene, patches));
   return check_interrupt();
 }
 
 } // namespace
 
-Status load_scene(const std::string& path, double max_edge, LoadedScene* loaded, RunReport* run) {
+Status load_scene(const std::string& path, const MeshOptions& options, LoadedScene* loaded,
+                  RunReport* run) {
   Stopwatch watch;
   HC_TRY(read_scene(path, &loaded->scene, &loaded->read));
   HC_TRY(check_interrupt());
   run->read_seconds = watch.lap();
-  const Status meshed = mesh(max_edge, loaded);
+  const Status meshed = mesh(options, loaded);
   if (meshed.code() == StatusCode::kBadScene)
     return Status::error(StatusCode::kBadScene, path, ": ", meshed.message());
   HC_TRY(meshed);
@@ -64,6 +72,15 @@ std::vector<std::string> warnings(const LoadedScene& loaded) {
   faces(mesh.duplicate_faces, "with the vertices of an earlier face: kept");
   faces(mesh.non_manifold_faces,
         "on an edge that more than two share or with opposite orientation: kept");
+  const DiscontinuityReport& cut = loaded.discontinuities;
+  const auto beyond = [&lines](std::uint64_t count, const char* what, std::uint64_t limit) {
+    if (count != 0)
+      lines.push_back(concat(count, what, limit));
+  };
+  beyond(cut.wedges_skipped, " wedges of shadows not followed: the limit is ",
+         cut.limits.max_wedges);
+  beyond(cut.lines_skipped, " weaker borders of shadows not cut: the limit of elements is ",
+         cut.limits.max_elements);
   return lines;
 }
 

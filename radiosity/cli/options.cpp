@@ -1,6 +1,7 @@
 #include "radiosity/cli/options.h"
 
 #include "radiosity/cli/console.h"
+#include "radiosity/cli/mesh_options.h"
 #include "radiosity/cli/option_values.h"
 #include "radiosity/cli/picture_options.h"
 #include "radiosity/cli/refinement_options.h"
@@ -152,9 +153,7 @@ private:
     common.push_back(
         app_.add_flag("--balance", options.balance,
                       "make the form factors reciprocal (solve, render, formfactors)"));
-    common.push_back(add_value(
-        &app_, "--max-edge", "M", "longest edge of a patch, metres [as the scene says]",
-        [&](const std::string& text) { line_.max_edge = parse_real_number(text, 0, kInfinity); }));
+    add_table(&app_, mesh_options(), &line_.mesh, &common);
     common.push_back(add_value(&app_, "--threads", "N", "worker threads [one per core]",
                                [&](const std::string& text) {
                                  line_.threads = parse_whole_number(text, 1, kMaxThreads);
@@ -276,15 +275,19 @@ private:
     add_table(sub, refinement_options(), &line_.refinement);
   }
 
+  /// @param added  may be null
   template <typename Target>
-  void add_table(CLI::App* sub, std::span<const TableOption<Target>> options, Target* target) {
+  void add_table(CLI::App* app, std::span<const TableOption<Target>> options, Target* target,
+                 std::vector<CLI::Option*>* added = nullptr) {
     for (const TableOption<Target>& option : options) {
-      if (option.placeholder == nullptr)
-        sub->add_flag_callback(
-            option.names, [target, option] { option.set({}, target); }, option.description);
-      else
-        add_value(sub, option.names, option.placeholder, option.description,
-                  [target, option](const std::string& text) { option.set(text, target); });
+      CLI::Option* one =
+          option.placeholder == nullptr
+              ? app->add_flag_callback(
+                    option.names, [target, option] { option.set({}, target); }, option.description)
+              : add_value(app, option.names, option.placeholder, option.description,
+                          [target, option](const std::string& text) { option.set(text, target); });
+      if (added != nullptr)
+        added->push_back(one);
     }
   }
 

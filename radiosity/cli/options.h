@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/adaptive.h"
+#include "radiosity/cli/load_scene.h"
 #include "radiosity/output/picture.h"
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct PictureOptions {
   bool log = false;
   std::optional<ToneCurve> tone;
   bool mesh = false;
+  bool wedges = false;
   std::optional<std::uint32_t> samples; ///< along each side of a pixel
   std::uint32_t orbit = 0;              ///< frames; 0 = one picture
 
@@ -75,11 +77,11 @@ struct CommandLine {
   // All commands.
   Options options;           ///< kernels is set
   std::uint32_t threads = 0; ///< 0 = cores
-  double max_edge = 0;       ///< metres; 0 = as the scene says
-  bool json = false;         ///< the report as one JSON object on stdout
-  bool quiet = false;        ///< no progress, warnings or summary
-  std::string input;         ///< SCENE, DIR, or DIR|SCENE
-  std::string output;        ///< -o; empty = none
+  MeshOptions mesh;
+  bool json = false;  ///< the report as one JSON object on stdout
+  bool quiet = false; ///< no progress, warnings or summary
+  std::string input;  ///< SCENE, DIR, or DIR|SCENE
+  std::string output; ///< -o; empty = none
 
   RefinementOptions refinement;             ///< solve, render
   std::string form_factors;                 ///< solve, formfactors: a .hcf; empty = none

@@ -62,6 +62,8 @@ constexpr PictureOption kOptions[] = {
      set_tone},
     {"--mesh", nullptr, "draw the edges of patches over the picture",
      [](std::string_view, PictureOptions* options) { options->mesh = true; }},
+    {"--wedges", nullptr, "discontinuity: draw the light that passes edges and corners",
+     [](std::string_view, PictureOptions* options) { options->wedges = true; }},
     {"--samples", "N", "samples along each side of a pixel, 1..8 [3]",
      [](std::string_view text, PictureOptions* options) {
        options->samples = parse_whole_number(text, 1, kMaxSamples);
@@ -106,12 +108,14 @@ Status check_picture_options(const CommandLine& line) {
        "this format holds no numbers of patches; use .exr, or .png for their colours"},
       {"--false-colour", picture.false_color && picture.patch_ids, kIds},
       {"--mesh", picture.mesh && picture.patch_ids, kIds},
+      {"--wedges", picture.wedges && picture.patch_ids, kIds},
       {"--samples", picture.samples && picture.patch_ids, kIds},
       {"--band", !picture.band.empty() && picture.patch_ids, kIds},
       {"--tone", has_tone && picture.patch_ids, kIds},
       {"--exposure", line.exposure != 0 && picture.patch_ids, kIds},
       {"--false-colour", picture.false_color && is_linear, kLinear},
       {"--mesh", picture.mesh && is_linear, kLinear},
+      {"--wedges", picture.wedges && is_linear, kLinear},
       {"--tone", has_tone && is_linear, kLinear},
       {"--tone", has_tone && picture.false_color, kNumbers},
       {"--exposure", line.exposure != 0 && picture.false_color, kNumbers},

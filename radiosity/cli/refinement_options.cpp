@@ -50,8 +50,9 @@ Status check_refinement(const CommandLine& line) {
   if (line.memory_bytes != 0)
     return refuse("--adaptive: all rows are in memory, which --memory cannot bound; "
                   "--max-elements can");
-  if (line.max_edge > 0 && wish.limits.min_edge > line.max_edge)
-    return refuse("--min-edge ", wish.limits.min_edge, ": is more than --max-edge ", line.max_edge);
+  if (line.mesh.max_edge > 0 && wish.limits.min_edge > line.mesh.max_edge)
+    return refuse("--min-edge ", wish.limits.min_edge, ": is more than --max-edge ",
+                  line.mesh.max_edge);
   return {};
 }
 

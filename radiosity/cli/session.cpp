@@ -2,6 +2,7 @@
 
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/memory_plan.h"
+#include "radiosity/cli/mesh_options.h"
 #include "radiosity/light_model.h"
 #include "radiosity/output/camera_view.h"
 #include "radiosity/output/element_table.h"
@@ -26,7 +27,8 @@ std::uint64_t peak_memory_bytes() {
 } // namespace
 
 Status Session::begin(const std::string& scene_path) {
-  HC_TRY(load_scene(scene_path, line.max_edge, &loaded, &run));
+  HC_TRY(check_mesh_options(line.mesh));
+  HC_TRY(load_scene(scene_path, line.mesh, &loaded, &run));
   scene_path_ = std::filesystem::absolute(scene_path).string();
   if (!line.quiet)
     for (const std::string& warning : warnings(loaded))
@@ -162,7 +164,8 @@ ReportParts Session::report_parts(const Certificate& certificate) {
           run,
           kVersion,
           scene_path_,
-          line.max_edge,
+          line.mesh.max_edge,
+          line.mesh.discontinuity ? &loaded.discontinuities : nullptr,
           line.refinement.adaptive ? &refinement_ : nullptr};
 }
 

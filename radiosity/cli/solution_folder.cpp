@@ -39,7 +39,16 @@ Status read_origin(const std::string& folder, SolutionOrigin* origin) {
   if (at("/run/scene").is_string())
     origin->scene = at("/run/scene").get<std::string>();
   if (at("/result/options/max_edge").is_number())
-    origin->max_edge = at("/result/options/max_edge").get<double>();
+    origin->mesh.max_edge = at("/result/options/max_edge").get<double>();
+  DiscontinuityLimits& limits = origin->mesh.limits;
+  origin->mesh.discontinuity = at("/result/options/discontinuity").is_object();
+  if (at("/result/options/discontinuity/snap").is_number())
+    limits.snap = at("/result/options/discontinuity/snap").get<double>();
+  for (const auto& [pointer, limit] :
+       {std::pair("/result/options/discontinuity/max_emitters", &limits.max_emitters),
+        std::pair("/result/options/discontinuity/max_elements", &limits.max_elements)})
+    if (at(pointer).is_number_unsigned())
+      *limit = at(pointer).get<std::uint64_t>();
   if (at("/result/patches").is_number_unsigned())
     origin->patches = at("/result/patches").get<std::uint64_t>();
   origin->is_adaptive = at("/result/adaptive").is_object();
@@ -54,8 +63,8 @@ Status follow_origin(const SolutionOrigin& origin, CommandLine* line) {
   if (line->scene.empty())
     return Status::error(StatusCode::kBadScene, origin.report_path,
                          ": does not name the scene it is about; name it with --scene");
-  if (line->max_edge == 0)
-    line->max_edge = origin.max_edge;
+  if (line->mesh.max_edge == 0 && !line->mesh.discontinuity)
+    line->mesh = origin.mesh;
   return {};
 }
 

@@ -10,8 +10,8 @@ namespace hemicube::radiosity::cli {
 /// What a folder written by `solve` says of where it comes from: its report.json.
 struct SolutionOrigin {
   std::string report_path;
-  std::string scene;   ///< empty = not told
-  double max_edge = 0; ///< metres, from the command line; 0 = as the scene says
+  std::string scene; ///< empty = not told
+  MeshOptions mesh;
   std::optional<std::uint64_t> patches;
   bool is_adaptive = false; ///< the patches are elements
   std::string scene_hash;   ///< 16 hexadecimal digits; empty = not told
@@ -20,7 +20,7 @@ struct SolutionOrigin {
 /// @return kBadScene if there is no report, or none that can be read
 Status read_origin(const std::string& folder, SolutionOrigin* origin);
 
-/// Fills --scene and --max-edge from it where they were not given.
+/// Fills --scene and how it is meshed from it where they were not given.
 /// @return kBadScene if neither names a scene
 Status follow_origin(const SolutionOrigin& origin, CommandLine* line);
 

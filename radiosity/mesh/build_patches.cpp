@@ -199,6 +199,9 @@ Status add_back(std::uint32_t front, std::uint32_t parent, PatchSet* patches) {
   HC_TRY(patches->corners.push_back(patches->corners[begin]));
   for (std::uint32_t i = end - 1; i > begin; --i)
     HC_TRY(patches->corners.push_back(patches->corners[i]));
+  if (!patches->edge_light.empty())
+    for (std::uint32_t i = end; i-- > begin;) // the last edge of the front is the back's first
+      HC_TRY(patches->edge_light.push_back(patches->edge_light[i]));
   HC_TRY(patches->corner_offsets.push_back(static_cast<std::uint32_t>(patches->corners.size())));
   HC_TRY(patches->face.push_back(patches->face[front]));
   HC_TRY(patches->parent.push_back(parent));

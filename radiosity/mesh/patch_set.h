@@ -7,6 +7,13 @@
 
 namespace hemicube::radiosity {
 
+/// What light does across an edge of a patch, where another patch goes on beside it.
+enum class EdgeLight : std::uint8_t {
+  kSmooth, ///< nothing
+  kBends,  ///< its slope changes: the border of a shadow
+  kJumps   ///< its value changes: something stands on the surface there
+};
+
 /// Planar convex polygons that emit and reflect from their front: the unknowns. Structure of
 /// arrays, indexed by patch. Order: fronts in file order of their faces (pieces of one face
 /// consecutive), then the backs of two-sided faces in the same order, each with reversed corners.
@@ -14,6 +21,9 @@ struct PatchSet {
   Buffer<Vec3> vertices;                ///< metres
   Buffer<std::uint32_t> corner_offsets; ///< [patch_count + 1]
   Buffer<std::uint32_t> corners;        ///< vertex indices, counter-clockwise seen from the front
+
+  /// [corner] of the edge from this corner to the next, the same from both sides; empty = all smooth
+  Buffer<EdgeLight> edge_light;
 
   Buffer<std::uint32_t> face;     ///< 0-based number of the input face, dropped faces counted
   Buffer<std::uint32_t> parent;   ///< the patch before subdivision that this one is a part of
@@ -30,6 +40,9 @@ struct PatchSet {
   std::span<const std::uint32_t> corners_of(std::uint32_t patch) const noexcept {
     return corners.span().subspan(corner_offsets[patch],
                                   corner_offsets[patch + 1] - corner_offsets[patch]);
+  }
+  EdgeLight light_across(std::size_t corner) const noexcept {
+    return edge_light.empty() ? EdgeLight::kSmooth : edge_light[corner];
   }
 };
 

@@ -116,6 +116,21 @@ Json refinement_json(const RefinementReport& refinement) {
   return json;
 }
 
+Json discontinuity_json(const DiscontinuityReport& found) {
+  Json json = Json::object();
+  json["patches"] = found.patches;
+  json["elements"] = found.elements;
+  json["emitters"] = found.emitters;
+  json["emitters_treated"] = found.emitters_treated;
+  set(&json, "power_treated", found.power_treated);
+  json["contact_lines"] = found.contact_lines;
+  json["shadow_lines"] = found.shadow_lines;
+  json["lines_skipped"] = found.lines_skipped;
+  json["wedges"] = found.wedges;
+  json["wedges_skipped"] = found.wedges_skipped;
+  return json;
+}
+
 Json options_json(const ReportParts& parts) {
   const Options& options = parts.options;
   Json json = Json::object();
@@ -130,6 +145,12 @@ Json options_json(const ReportParts& parts) {
   json["balance"] = options.balance;
   if (parts.max_edge != 0)
     json["max_edge"] = parts.max_edge;
+  if (parts.discontinuity != nullptr) {
+    Json& limits = json["discontinuity"] = Json::object();
+    limits["max_emitters"] = parts.discontinuity->limits.max_emitters;
+    set(&limits, "snap", parts.discontinuity->limits.snap);
+    limits["max_elements"] = parts.discontinuity->limits.max_elements;
+  }
   if (parts.refinement != nullptr) {
     set(&json, "variation", parts.refinement->limits.variation);
     set(&json, "min_edge", parts.refinement->limits.min_edge);
@@ -152,6 +173,8 @@ Json result_json(const ReportParts& parts) {
   Json json = Json::object();
   json["options"] = options_json(parts);
   json["patches"] = certificate.patches;
+  if (parts.discontinuity != nullptr)
+    json["discontinuity"] = discontinuity_json(*parts.discontinuity);
   if (parts.refinement != nullptr)
     json["adaptive"] = refinement_json(*parts.refinement);
   json["hemicubes"] = certificate.hemicubes;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/adaptive.h"
+#include "radiosity/discontinuity/discontinuity_mesh.h"
 #include "radiosity/mesh/patch_set.h"
 #include "radiosity/output/certificate.h"
 #include "radiosity/radiosity.h"
@@ -23,7 +24,8 @@ struct ReportParts {
   std::string_view version;
   std::string scene_path = {}; ///< absolute; empty = not told
   double max_edge = 0;         ///< metres, from the command line; 0 = as the scene says
-  const RefinementReport* refinement = nullptr; ///< of adaptive meshing; null without
+  const DiscontinuityReport* discontinuity = nullptr; ///< of discontinuity meshing; null without
+  const RefinementReport* refinement = nullptr;       ///< of adaptive meshing; null without
 };
 
 /// report.json: an object `result`, bit-equal for every thread count, instruction set and compiler,

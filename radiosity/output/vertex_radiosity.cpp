@@ -46,7 +46,7 @@ public:
     HC_TRY(find_shared_vertices(patches_, &shared_));
     HC_TRY(find_straight_corners(patches_, &is_straight_));
     const auto corner_count = static_cast<std::uint32_t>(patches_.corners.size());
-    HC_TRY(find_surfaces());
+    HC_TRY(find_surfaces(EdgeLight::kSmooth, &surface_));
     HC_TRY(mean_.resize(std::size_t{corner_count} * band_count_));
     HC_TRY(is_inside_.resize(corner_count));
     for (std::uint32_t corner = 0; corner < corner_count; ++corner)
@@ -61,6 +61,8 @@ public:
     for (std::uint32_t corner = 0; corner < corner_count; ++corner)
       if (is_straight_[corner] && is_alone(corner))
         put_on_side(corner, out->data());
+    if (!patches_.edge_light.empty())
+      HC_TRY(join_at_bends(out->data()));
     return {};
   }
 
@@ -83,27 +85,79 @@ private:
   /// Names the surfaces at every position by their lowest corner. Being one surface is handed on
   /// from patch to patch: on a finely bent surface the two sides of an edge would else take their
   /// means over different patches.
-  Status find_surfaces() {
-    HC_TRY(surface_.resize(patches_.corners.size()));
-    for (std::uint32_t corner = 0; corner < surface_.size(); ++corner)
-      surface_[corner] = corner;
+  /// @param across  the most that light may do across an edge within one surface
+  Status find_surfaces(EdgeLight across, Buffer<std::uint32_t>* surface) const {
+    HC_TRY(surface->resize(patches_.corners.size()));
+    for (std::uint32_t corner = 0; corner < surface->size(); ++corner)
+      (*surface)[corner] = corner;
     for (std::uint32_t at = 0; at + 1 < shared_.offsets.size(); ++at) {
       const auto meeting = shared_.corners_at(at);
       if (meeting.size() > kMaxMeeting)
         continue;
+      const bool is_cut = has_edge_beyond(meeting, across);
       for (std::size_t i = 1; i < meeting.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-          if (surface_[meeting[j]] != surface_[meeting[i]] &&
+          if ((*surface)[meeting[j]] != (*surface)[meeting[i]] &&
               are_one_surface(patches_, shared_.corner_patch[meeting[j]],
-                              shared_.corner_patch[meeting[i]]))
-            join_surfaces(meeting.first(i + 1), surface_[meeting[j]], surface_[meeting[i]]);
+                              shared_.corner_patch[meeting[i]]) &&
+              (!is_cut || share_edge(meeting[i], meeting[j], across)))
+            join_surfaces(meeting.first(i + 1), (*surface)[meeting[j]], (*surface)[meeting[i]],
+                          surface);
     }
     return {};
   }
-  void join_surfaces(std::span<const std::uint32_t> corners, std::uint32_t a, std::uint32_t b) {
+  static void join_surfaces(std::span<const std::uint32_t> corners, std::uint32_t a,
+                            std::uint32_t b, Buffer<std::uint32_t>* surface) {
     for (const std::uint32_t corner : corners)
-      if (surface_[corner] == a || surface_[corner] == b)
-        surface_[corner] = a < b ? a : b;
+      if ((*surface)[corner] == a || (*surface)[corner] == b)
+        (*surface)[corner] = a < b ? a : b;
+  }
+
+  std::uint32_t before(std::uint32_t corner) const {
+    return along(corner, corner_count_of(corner) - 1);
+  }
+  bool has_edge_beyond(std::span<const std::uint32_t> corners, EdgeLight across) const {
+    for (const std::uint32_t corner : corners)
+      if (patches_.light_across(corner) > across || patches_.light_across(before(corner)) > across)
+        return true;
+    return false;
+  }
+  /// Whether two patches that meet at corners have an edge there in common, and light does no more
+  /// across it than `across`.
+  bool share_edge(std::uint32_t a, std::uint32_t b, EdgeLight across) const {
+    return (position_of(along(a, 1)) == position_of(before(b)) &&
+            patches_.light_across(a) <= across) ||
+           (position_of(before(a)) == position_of(along(b, 1)) &&
+            patches_.light_across(b) <= across);
+  }
+
+  /// Gives the surfaces on both sides of edges across which light bends one value at their ends:
+  /// each has been led up to the edge from its own side.
+  Status join_at_bends(float* out) const {
+    Buffer<std::uint32_t> wide;
+    HC_TRY(find_surfaces(EdgeLight::kBends, &wide));
+    for (std::uint32_t at = 0; at + 1 < shared_.offsets.size(); ++at) {
+      const auto meeting = shared_.corners_at(at);
+      if (meeting.size() > kMaxMeeting || !has_edge_beyond(meeting, EdgeLight::kSmooth))
+        continue;
+      for (const std::uint32_t first : meeting)
+        if (wide[first] == first)
+          for (std::uint32_t band = 0; band < band_count_; ++band)
+            join_surfaces_at(meeting, wide, first, out + band);
+    }
+    return {};
+  }
+  void join_surfaces_at(std::span<const std::uint32_t> meeting, const Buffer<std::uint32_t>& wide,
+                        std::uint32_t first, float* out) const {
+    double sum = 0, count = 0;
+    for (const std::uint32_t corner : meeting)
+      if (wide[corner] == first && surface_[corner] == corner) {
+        sum += static_cast<double>(out[std::size_t{corner} * band_count_]);
+        ++count;
+      }
+    for (const std::uint32_t corner : meeting)
+      if (wide[corner] == first)
+        out[std::size_t{corner} * band_count_] = to_float(sum / count);
   }
 
   /// Fills meeting_ for a surface, all weights areas over the largest.

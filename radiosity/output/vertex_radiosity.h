@@ -13,6 +13,10 @@ namespace hemicube::radiosity {
 /// which differ by at most about 8 degrees from one to the next. So nothing crosses an edge of a
 /// room or a change of material, and the two sides of an edge within a surface agree bit for bit.
 ///
+/// Nor does it cross an edge where light jumps (PatchSet::edge_light). Where light bends, each side
+/// is a surface of its own, too, up to the last step: then the values that the sides have come to
+/// at the edge are made one, their mean.
+///
 /// Weights are areas, changed as little as it takes to make the mean belong to the vertex itself
 /// (balanced_weights.h): linear light is exact also where large and small patches meet. On a grid
 /// of equal parallelograms they are equal.

@@ -2,9 +2,10 @@
 
 #include "radiosity/mesh/build_patches.h"
 #include "radiosity/mesh/polygon_shape.h"
+#include "radiosity/mesh/straight_corners.h"
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 
 namespace hemicube::radiosity {
 namespace {
@@ -22,16 +23,74 @@ Status ElementTree::init(const Scene& scene, const PatchSet& patches) {
   patches_ = &patches;
   for (const Vec3& position : patches.vertices)
     add_vertex(position);
-  for (std::uint32_t patch = 0; patch < patches.front_count; ++patch) {
-    const auto from = patches.corners_of(patch);
-    Node node{patch};
-    node.first_corner = corners_.size();
-    node.corner_count = static_cast<std::uint32_t>(from.size());
-    corners_.insert(corners_.end(), from.begin(), from.end());
-    nodes_.push_back(node);
-  }
+  first_own_vertex_ = static_cast<std::uint32_t>(vertices_.size());
+  Buffer<std::uint8_t> is_straight;
+  HC_TRY(find_straight_corners(patches, &is_straight));
+  for (std::uint32_t patch = 0; patch < patches.front_count; ++patch)
+    add_patch(patch, is_straight.span().subspan(patches.corner_offsets[patch],
+                                                patches.corners_of(patch).size()));
   element_count_ = patches.patch_count();
   return {};
+}
+
+/// Makes a patch a node. Its straight corners are hanging vertices, as those of refinement are.
+void ElementTree::add_patch(std::uint32_t patch, std::span<const std::uint8_t> is_straight) {
+  const auto from = patches_->corners_of(patch);
+  const std::size_t count = from.size();
+  Node node{patch};
+  node.first_corner = corners_.size();
+  for (std::size_t k = 0; k < count;) {
+    std::size_t next = k + 1; // the first corner stays one
+    if (is_straight[0] == 0)
+      while (next < count && is_straight[next] != 0)
+        ++next;
+    corners_.push_back(from[k]);
+    std::vector<std::uint32_t> side(from.begin() + static_cast<std::ptrdiff_t>(k),
+                                    from.begin() + static_cast<std::ptrdiff_t>(next));
+    side.push_back(from[next % count]);
+    hang(side);
+    k = next;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    note_light(from[k], from[(k + 1) % count],
+               patches_->light_across(patches_->corner_offsets[patch] + k));
+  node.corner_count = static_cast<std::uint32_t>(corners_.size() - node.first_corner);
+  nodes_.push_back(node);
+}
+
+/// Notes the vertices between the ends of a side, the one nearest to its middle first: the same
+/// from both sides.
+void ElementTree::hang(std::span<const std::uint32_t> side) {
+  if (side.size() < 3)
+    return;
+  const Vec3 &a = vertices_[side.front()], &b = vertices_[side.back()];
+  const auto off_middle = [&](std::uint32_t vertex) {
+    return std::fabs(glm::length(vertices_[vertex] - a) - glm::length(b - vertices_[vertex]));
+  };
+  std::size_t best = 1;
+  for (std::size_t k = 2; k + 1 < side.size(); ++k) {
+    const double here = off_middle(side[k]), there = off_middle(side[best]);
+    if (here < there || (here == there && place_[side[k]] < place_[side[best]]))
+      best = k;
+  }
+  middles_.try_emplace(edge_key(side.front(), side.back()), side[best]);
+  hang(side.first(best + 1));
+  hang(side.subspan(best));
+}
+
+std::uint64_t ElementTree::edge_key(std::uint32_t a, std::uint32_t b) const noexcept {
+  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
+  return low << 32 | high;
+}
+
+EdgeLight ElementTree::light_across(std::uint32_t a, std::uint32_t b) const {
+  const auto found = lights_.find(edge_key(a, b));
+  return found != lights_.end() ? found->second : EdgeLight::kSmooth;
+}
+
+void ElementTree::note_light(std::uint32_t a, std::uint32_t b, EdgeLight light) {
+  if (light != EdgeLight::kSmooth)
+    lights_.try_emplace(edge_key(a, b), light);
 }
 
 std::uint32_t ElementTree::side_count(std::uint32_t node) const noexcept {
@@ -70,43 +129,61 @@ std::uint32_t ElementTree::pieces_of(std::uint32_t leaf, double min_edge) const 
   const Cut cut = cut_of(leaf);
   std::vector<Vec3> points;
   corners_of(leaf, &points);
+  double least = 0.5; // of an edge that is left of it
   for (std::size_t k = 0; k < count; ++k) {
     if (count == 4 && !(k % 2 == 0 ? cut.along_0 : cut.along_1))
       continue;
     const Vec3 &a = points[k], &b = points[(k + 1) % count];
+    const std::uint32_t hanging = middle(corners(leaf)[k], corners(leaf)[(k + 1) % count]);
     const Vec3 half = 0.5 * (a + b);
+    const double length = glm::length(b - a);
     // Halves that are too short, or no halves at all.
-    if (glm::length(b - a) < 2 * min_edge || half == a || half == b)
+    if (length < 2 * min_edge || half == a || half == b)
       return 0;
+    if (hanging != kNone && hanging < first_own_vertex_)
+      least = std::min({least, glm::length(vertices_[hanging] - a) / length,
+                        glm::length(b - vertices_[hanging]) / length});
   }
   // A piece has a corner of the polygon, or of a triangle is its middle: a quarter or more of the
-  // smallest corner's area. What is resolved with 64 times the doubt is resolved after the cut.
+  // smallest corner's area where edges are halved. What is resolved with 64 times the doubt is
+  // resolved after the cut.
   PolygonShape shape = measure_polygon(points);
-  shape.resolution *= 64;
+  shape.resolution *= 16 / (least * least);
   if (shape.area < kSmallestArea || !has_area(points, shape))
     return 0;
   return count == 3 ? 4 : count == 4 ? (cut.along_0 && cut.along_1 ? 4 : 2) : count;
 }
 
 std::uint32_t ElementTree::middle(std::uint32_t a, std::uint32_t b) const {
-  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
-  const auto found = middles_.find(low << 32 | high);
+  const auto found = middles_.find(edge_key(a, b));
   return found != middles_.end() ? found->second : kNone;
 }
 
 std::uint32_t ElementTree::make_middle(std::uint32_t a, std::uint32_t b) {
-  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
-  const auto [at, is_new] = middles_.try_emplace(low << 32 | high, kNone);
-  if (is_new)
-    at->second = add_vertex(0.5 * (vertices_[a] + vertices_[b]));
-  return at->second;
+  const auto [at, is_new] = middles_.try_emplace(edge_key(a, b), kNone);
+  const std::uint32_t middle =
+      is_new ? add_vertex(0.5 * (vertices_[a] + vertices_[b])) : at->second;
+  at->second = middle;
+  if (is_new) {
+    const EdgeLight light = light_across(a, b);
+    note_light(a, middle, light);
+    note_light(middle, b, light);
+  }
+  return middle;
 }
 
-std::uint32_t ElementTree::make_centre(std::uint32_t node) {
+/// The mean of the corners of a node, which is that of the middles of its edges, too. Where edges
+/// are not cut in the middle, only the latter leaves convex pieces.
+std::uint32_t ElementTree::make_centre(std::uint32_t node,
+                                       std::span<const std::uint32_t> middles) {
   const std::size_t count = nodes_[node].corner_count;
+  bool are_halves = true;
+  for (std::size_t k = 0; k < count; ++k)
+    are_halves = are_halves &&
+                 vertices_[middles[k]] == 0.5 * (point(node, k) + point(node, k + 1));
   Vec3 sum(0, 0, 0); // relative to the first corner
   for (std::size_t k = 0; k < count; ++k)
-    sum += point(node, k) - point(node, 0);
+    sum += (are_halves ? point(node, k) : vertices_[middles[k]]) - point(node, 0);
   return add_vertex(point(node, 0) + sum / static_cast<double>(count));
 }
 
@@ -115,13 +192,6 @@ std::uint32_t ElementTree::add_vertex(const Vec3& position) {
   vertices_.push_back(position);
   place_.push_back(vertex_at_.try_emplace(position, number).first->second);
   return number;
-}
-
-std::size_t ElementTree::PositionHash::operator()(const Vec3& position) const noexcept {
-  std::size_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis) // of 0 and -0 the same
-    hash = hash * 0x9e3779b97f4a7c15u + std::hash<double>()(position[axis]);
-  return hash;
 }
 
 void ElementTree::add_child(std::uint32_t parent, std::initializer_list<std::uint32_t> corners) {
@@ -156,7 +226,7 @@ void ElementTree::split(std::uint32_t leaf) {
   } else {
     // Each child of a quad begins with the direction of its first edge: item buffers of all are
     // turned alike.
-    const std::uint32_t centre = make_centre(leaf);
+    const std::uint32_t centre = make_centre(leaf, m);
     if (count == 4) {
       add_child(leaf, {c[0], m[0], centre, m[3]});
       add_child(leaf, {m[0], c[1], m[1], centre});
@@ -190,14 +260,21 @@ std::vector<std::uint32_t> ElementTree::uneven_leaves() const {
   for (const std::uint32_t leaf : leaves()) {
     const auto c = corners(leaf);
     bool is_uneven = false;
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      const std::uint32_t a = c[k], b = c[(k + 1) % c.size()], m = middle(a, b);
-      is_uneven = is_uneven || (m != kNone && (middle(a, m) != kNone || middle(m, b) != kNone));
-    }
+    for (std::size_t k = 0; k < c.size(); ++k)
+      is_uneven = is_uneven || is_uneven_edge(c[k], c[(k + 1) % c.size()]);
     if (is_uneven)
       found.push_back(leaf);
   }
   return found;
+}
+
+bool ElementTree::is_uneven_edge(std::uint32_t a, std::uint32_t b) const {
+  const std::uint32_t m = middle(a, b);
+  if (m == kNone)
+    return false;
+  if (m < first_own_vertex_) // the patch has had it from the beginning
+    return is_uneven_edge(a, m) || is_uneven_edge(m, b);
+  return middle(a, m) != kNone || middle(m, b) != kNone;
 }
 
 void ElementTree::append_hanging(std::uint32_t a, std::uint32_t b,
@@ -226,6 +303,10 @@ Status ElementTree::make_mesh(PatchSet* elements) const {
     }
     const std::uint32_t patch = nodes_[leaf].patch;
     HC_TRY(mesh.corners.append(std::span<const std::uint32_t>(polygon)));
+    if (!patches_->edge_light.empty())
+      for (std::size_t k = 0; k < polygon.size(); ++k)
+        HC_TRY(mesh.edge_light.push_back(
+            light_across(polygon[k], polygon[(k + 1) % polygon.size()])));
     HC_TRY(check_mesh_size(0, mesh.corners.size(), 0, "allow fewer elements"));
     HC_TRY(mesh.corner_offsets.push_back(static_cast<std::uint32_t>(mesh.corners.size())));
     HC_TRY(mesh.face.push_back(patches_->face[patch]));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/mesh/patch_set.h"
+#include "radiosity/mesh/position_hash.h"
 #include "radiosity/scene/scene.h"
 
 #include <unordered_map>
@@ -9,9 +10,10 @@
 namespace hemicube::radiosity {
 
 /// Patches and the elements they are cut into (Cohen et al. 1986): a tree for every front, whose
-/// leaves are the elements. Edges are halved, always by the same bits from both sides. A quad
-/// becomes 4 quads, or 2 where it is much longer than wide; a triangle 4 triangles; a larger
-/// polygon one quad per corner about the mean of its vertices.
+/// leaves are the elements. Edges are halved, always by the same bits from both sides, or cut where
+/// a straight corner of a patch is: the vertex of a neighbour. A quad becomes 4 quads, or 2 where it
+/// is much longer than wide; a triangle 4 triangles; a larger polygon one quad per corner about the
+/// mean of its vertices.
 class ElementTree {
 public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -69,20 +71,22 @@ private:
     bool along_0 = true, along_1 = true;
   };
 
+  void add_patch(std::uint32_t patch, std::span<const std::uint8_t> is_straight);
+  void hang(std::span<const std::uint32_t> side);
+  std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) const noexcept;
+  EdgeLight light_across(std::uint32_t a, std::uint32_t b) const;
+  void note_light(std::uint32_t a, std::uint32_t b, EdgeLight light);
+  bool is_uneven_edge(std::uint32_t a, std::uint32_t b) const;
   std::span<const std::uint32_t> corners(std::uint32_t node) const noexcept;
   const Vec3& point(std::uint32_t node, std::size_t corner) const noexcept;
   double edge_length(std::uint32_t node, std::size_t k) const noexcept;
   Cut cut_of(std::uint32_t node) const noexcept;
   std::uint32_t middle(std::uint32_t a, std::uint32_t b) const;
   std::uint32_t make_middle(std::uint32_t a, std::uint32_t b);
-  std::uint32_t make_centre(std::uint32_t node);
+  std::uint32_t make_centre(std::uint32_t node, std::span<const std::uint32_t> middles);
   std::uint32_t add_vertex(const Vec3& position);
   void add_child(std::uint32_t parent, std::initializer_list<std::uint32_t> corners);
   void append_hanging(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>* corners) const;
-
-  struct PositionHash {
-    std::size_t operator()(const Vec3& position) const noexcept;
-  };
 
   const Scene* scene_ = nullptr;
   const PatchSet* patches_ = nullptr;
@@ -90,9 +94,11 @@ private:
   std::vector<std::uint32_t> corners_;
   std::vector<Vec3> vertices_;       ///< those of the patches first
   std::vector<std::uint32_t> place_; ///< [vertex] the first vertex at the same position
-  // Both are looked up only, never walked.
+  std::uint32_t first_own_vertex_ = 0; ///< those before are of the patches
+  // All are looked up only, never walked. Edges go by their two places.
   std::unordered_map<Vec3, std::uint32_t, PositionHash> vertex_at_;
-  std::unordered_map<std::uint64_t, std::uint32_t> middles_; ///< of an edge by its two places
+  std::unordered_map<std::uint64_t, std::uint32_t> middles_; ///< the vertex that cuts an edge
+  std::unordered_map<std::uint64_t, EdgeLight> lights_; ///< across edges where it is not smooth
   std::uint64_t element_count_ = 0;
 };
 

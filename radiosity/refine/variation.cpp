@@ -23,6 +23,8 @@ public:
     const OpenMesh::PolyConnectivity& mesh = half_edges_.mesh;
     const auto corners = elements_.corners_of(element);
     for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (elements_.light_across(elements_.corner_offsets[element] + k) == EdgeLight::kJumps)
+        continue;
       const Vec3 middle = 0.5 * (elements_.vertices[corners[k]] +
                                  elements_.vertices[corners[(k + 1) % corners.size()]]);
       const OpenMesh::EdgeHandle first =

@@ -8,9 +8,10 @@
 namespace hemicube::radiosity {
 
 /// How much radiosity varies within each element, judged by its neighbours on the same surface
-/// (an edge in common, the same material, normals within about 8 degrees): the difference to a
-/// neighbour, over the way between their middles, times the size of the element across the common
-/// edge. Of all neighbours and bands the largest, in units of `scale`.
+/// (an edge in common across which light does not jump, the same material, normals within about
+/// 8 degrees): the difference to a neighbour, over the way between their middles, times the size of
+/// the element across the common edge. Of all neighbours and bands the largest, in units of
+/// `scale`.
 /// @param elements   T-vertices of refinement are corners on both sides (ElementTree::make_mesh)
 /// @param radiosity  [element][band] W/m^2
 /// @param scale      [band] W/m^2; a band with 0 does not count

@@ -1,6 +1,7 @@
 // The hashes of hashes.txt, for every instruction set of this machine and several thread counts. A
 // hash says "unchanged"; that the results are right is shown by the tests of tests/analytic on
 // these scenes.
+#include "radiosity/discontinuity/discontinuity_mesh.h"
 #include "radiosity/mesh/build_patches.h"
 #include "radiosity/parallel/thread_pool.h"
 #include "radiosity/radiosity.h"
@@ -21,8 +22,10 @@ namespace {
 
 const std::string kFile = HC_SOURCE_DIR "/tests/golden/hashes.txt";
 
+const std::string kCut = "+discontinuity";
+
 struct Golden {
-  std::string scene; ///< below the checkout
+  std::string scene; ///< below the checkout; its patches cut where it ends with kCut
   std::string rung;  ///< adaptive: with its target, "adaptive:0.3"
   std::uint32_t resolution = 0;
   std::string items, form_factors, radiosity;
@@ -69,10 +72,19 @@ Golden compute(const Golden& golden, const raster::Kernels& kernels, std::uint32
   ReadReport read;
   PatchSet patches;
   MeshReport mesh;
-  const std::string path = HC_SOURCE_DIR "/" + golden.scene;
+  const bool is_cut = golden.scene.ends_with(kCut);
+  const std::string path =
+      HC_SOURCE_DIR "/" + golden.scene.substr(0, golden.scene.size() - (is_cut ? kCut.size() : 0));
   for (const Status& status :
        {read_scene(path, &scene, &read), build_patches(scene, &patches, &mesh)})
     EXPECT_TRUE(status.ok()) << status.message();
+  if (is_cut) {
+    PatchSet elements;
+    DiscontinuityReport report;
+    std::vector<DiscontinuityLine> lines;
+    EXPECT_TRUE(cut_discontinuities(scene, patches, {}, &elements, &lines, &report).ok());
+    patches = std::move(elements);
+  }
   ThreadPool pool;
   EXPECT_TRUE(pool.init(threads).ok());
   Options options;

@@ -1,0 +1,280 @@
+#include "radiosity/discontinuity/patch_cutter.h"
+
+#include "radiosity/mesh/build_patches.h"
+#include "radiosity/mesh/polygon_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemicube::radiosity {
+namespace {
+
+/// A line that takes up less of an edge leaves it smooth.
+constexpr double kLeastPart = 0.5;
+
+std::size_t next_of(std::size_t k, std::size_t count) {
+  return k + 1 == count ? 0 : k + 1;
+}
+
+} // namespace
+
+/// A line in the plane of a patch.
+struct PatchCutter::Line {
+  Vec3 origin, way, across; ///< the latter two of length 1
+  double length;            ///< metres; of 0 the others say nothing
+
+  Line(const Vec3& begin, const Vec3& end, const Vec3& normal)
+      : origin(begin), way(end - begin), across(0), length(glm::length(end - begin)) {
+    if (length > 0)
+      way /= length;
+    across = glm::cross(normal, way);
+  }
+  double side(const Vec3& point) const { return glm::dot(across, point - origin); }
+  double along(const Vec3& point) const { return glm::dot(way, point - origin); }
+};
+
+Status PatchCutter::init(const PatchSet& patches) {
+  *this = {};
+  patches_ = &patches;
+  for (const Vec3& position : patches.vertices)
+    add_vertex(position);
+  for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch) {
+    const auto corners = patches.corners_of(patch);
+    cells_.push_back({Cell(corners.begin(), corners.end())});
+  }
+  cell_count_ = patches.patch_count();
+  return {};
+}
+
+std::uint64_t PatchCutter::edge_key(std::uint32_t a, std::uint32_t b) const noexcept {
+  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
+  return low << 32 | high;
+}
+
+std::uint32_t PatchCutter::add_vertex(const Vec3& position) {
+  const auto number = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(position);
+  place_.push_back(vertex_at_.try_emplace(position, number).first->second);
+  return number;
+}
+
+std::uint32_t PatchCutter::split_edge(std::uint32_t a, std::uint32_t b, double share) {
+  const auto [at, is_new] = splits_.try_emplace(edge_key(a, b), 0u);
+  if (is_new)
+    at->second = add_vertex(vertices_[a] + share * (vertices_[b] - vertices_[a]));
+  return at->second;
+}
+
+void PatchCutter::append_hanging(std::uint32_t a, std::uint32_t b, Cell* cell) const {
+  const auto found = splits_.find(edge_key(a, b));
+  if (found == splits_.end())
+    return;
+  append_hanging(a, found->second, cell);
+  cell->push_back(found->second);
+  append_hanging(found->second, b, cell);
+}
+
+void PatchCutter::insert_hanging(Cell* cell) const {
+  Cell whole;
+  for (std::size_t k = 0; k < cell->size(); ++k) {
+    whole.push_back((*cell)[k]);
+    append_hanging((*cell)[k], (*cell)[next_of(k, cell->size())], &whole);
+  }
+  cell->swap(whole);
+}
+
+bool PatchCutter::may_touch(const Cell& cell, const Line& line, double snap) const {
+  bool any_left = false, any_right = false, any_after = false, any_before = false;
+  for (const std::uint32_t vertex : cell) {
+    const double side = line.side(vertices_[vertex]), along = line.along(vertices_[vertex]);
+    any_left = any_left || side >= -snap;
+    any_right = any_right || side <= snap;
+    any_after = any_after || along >= 0;
+    any_before = any_before || along <= line.length;
+  }
+  return any_left && any_right && any_after && any_before;
+}
+
+void PatchCutter::find_crossing(const Cell& cell, const Line& line, double snap,
+                                Crossing* crossing) const {
+  const std::size_t count = cell.size();
+  bool any_left = false, any_right = false;
+  crossing->side.resize(count);
+  crossing->along.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    double& side = crossing->side[k];
+    side = line.side(vertices_[cell[k]]);
+    if (side <= snap && side >= -snap)
+      side = 0;
+    any_left = any_left || side > 0;
+    any_right = any_right || side < 0;
+    crossing->along[k] = line.along(vertices_[cell[k]]);
+  }
+  crossing->divides = false;
+  if (!any_left || !any_right)
+    return;
+  // The places where the side changes, in the order of corners: a convex cell has two.
+  double last_side = 0;
+  for (std::size_t k = count; k-- > 0 && last_side == 0;)
+    last_side = crossing->side[k];
+  std::size_t found[2] = {0, 0}, found_count = 0;
+  double at[2] = {0, 0};
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t next = next_of(k, count);
+    const double here = crossing->side[k], there = crossing->side[next];
+    const bool is_corner = here == 0;
+    last_side = is_corner ? last_side : here; // of the last corner off the line
+    if (there == 0 || (last_side > 0) == (there > 0))
+      continue;
+    if (found_count == 2)
+      return; // folded by rounding
+    found[found_count] = k;
+    const double share = is_corner ? 0 : here / (here - there);
+    at[found_count++] = crossing->along[k] + share * (crossing->along[next] - crossing->along[k]);
+  }
+  if (found_count != 2)
+    return;
+  crossing->first = found[0];
+  crossing->second = found[1];
+  crossing->begin = std::min(at[0], at[1]);
+  crossing->end = std::max(at[0], at[1]);
+  crossing->divides = true;
+}
+
+bool PatchCutter::has_resolved_area(const Cell& cell) const {
+  std::vector<Vec3> points;
+  for (const std::uint32_t vertex : cell)
+    points.push_back(vertices_[vertex]);
+  PolygonShape shape = measure_polygon(points);
+  shape.resolution *= 64; // what is left of it after the next cuts
+  return has_area(points, shape);
+}
+
+/// @param ends  receives those of the new edge
+/// @return false if the pieces would be too small
+bool PatchCutter::cut_cell(std::uint32_t patch, std::size_t number, const Crossing& crossing,
+                           std::uint32_t ends[2]) {
+  const Cell cell = cells_[patch][number];
+  const std::size_t count = cell.size();
+  bool is_corner[2] = {false, false};
+  for (const std::size_t e : {0u, 1u}) {
+    const std::size_t k = e == 0 ? crossing.first : crossing.second;
+    const double here = crossing.side[k], there = crossing.side[next_of(k, count)];
+    is_corner[e] = here == 0;
+    if (!is_corner[e]) {
+      // From the same end for both sides, so that the order of corners does not matter.
+      ends[e] = split_edge(cell[k], cell[next_of(k, count)], here / (here - there));
+    } else {
+      ends[e] = cell[k];
+    }
+  }
+  Cell pieces[2];
+  for (const std::size_t e : {0u, 1u}) {
+    const std::size_t from = e == 0 ? crossing.first : crossing.second;
+    const std::size_t to = e == 0 ? crossing.second : crossing.first;
+    pieces[e].push_back(ends[e]);
+    for (std::size_t k = next_of(from, count); k != to; k = next_of(k, count))
+      pieces[e].push_back(cell[k]);
+    if (!is_corner[1 - e])
+      pieces[e].push_back(cell[to]);
+    pieces[e].push_back(ends[1 - e]);
+  }
+  if (!has_resolved_area(pieces[0]) || !has_resolved_area(pieces[1]))
+    return false; // a vertex on the border may stay: it does no harm
+  cells_[patch][number] = std::move(pieces[0]);
+  cells_[patch].push_back(std::move(pieces[1]));
+  ++cell_count_;
+  return true;
+}
+
+/// Makes a vertex on the edge from a to b where it is `along` a line, unless one is as near as
+/// that.
+void PatchCutter::split_at(std::uint32_t a, std::uint32_t b, const Line& line, double along,
+                           double snap) {
+  const double at_a = line.along(vertices_[a]), at_b = line.along(vertices_[b]);
+  const double low = std::min(at_a, at_b), high = std::max(at_a, at_b);
+  if (!(along - low > snap && high - along > snap))
+    return;
+  if (const auto found = splits_.find(edge_key(a, b)); found != splits_.end()) {
+    split_at(a, found->second, line, along, snap);
+    split_at(found->second, b, line, along, snap);
+  } else {
+    split_edge(a, b, (along - at_a) / (at_b - at_a));
+  }
+}
+
+void PatchCutter::cut(std::uint32_t patch, const Vec3& begin, const Vec3& end, EdgeLight light,
+                      double snap) {
+  const Line line(begin, end, patches_->normal[patch]);
+  if (!(line.length > snap))
+    return;
+  Crossing crossing;
+  const std::size_t cell_count = cells_[patch].size();
+  for (std::size_t c = 0; c < cell_count; ++c) {
+    if (!may_touch(cells_[patch][c], line, snap))
+      continue;
+    insert_hanging(&cells_[patch][c]);
+    find_crossing(cells_[patch][c], line, snap, &crossing);
+    if (!crossing.divides)
+      continue;
+    const double overlap = std::min(crossing.end, line.length) - std::max(crossing.begin, 0.0);
+    std::uint32_t ends[2];
+    if (!(crossing.end - crossing.begin > snap && overlap > snap) ||
+        !cut_cell(patch, c, crossing, ends) || light != EdgeLight::kJumps)
+      continue;
+    split_at(ends[0], ends[1], line, 0, snap);
+    split_at(ends[0], ends[1], line, line.length, snap);
+  }
+}
+
+void PatchCutter::note_light(std::uint32_t patch, const Vec3& begin, const Vec3& end,
+                             EdgeLight light, double snap) {
+  const Line line(begin, end, patches_->normal[patch]);
+  if (!(line.length > snap))
+    return;
+  for (Cell& cell : cells_[patch]) {
+    if (!may_touch(cell, line, snap))
+      continue;
+    insert_hanging(&cell);
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      const std::uint32_t a = cell[k], b = cell[next_of(k, cell.size())];
+      if (std::fabs(line.side(vertices_[a])) > snap || std::fabs(line.side(vertices_[b])) > snap)
+        continue;
+      const double at_a = line.along(vertices_[a]), at_b = line.along(vertices_[b]);
+      const double low = std::min(at_a, at_b), high = std::max(at_a, at_b);
+      if (std::min(high, line.length) - std::max(low, 0.0) < kLeastPart * (high - low))
+        continue;
+      EdgeLight& known = lights_.try_emplace(edge_key(a, b), light).first->second;
+      known = std::max(known, light);
+    }
+  }
+}
+
+Status PatchCutter::make_mesh(PatchSet* cells) const {
+  *cells = {};
+  HC_TRY(check_mesh_size(cell_count_, 0, vertices_.size(), "begin with a coarser mesh"));
+  HC_TRY(cells->vertices.append(std::span<const Vec3>(vertices_)));
+  HC_TRY(cells->corner_offsets.push_back(0));
+  for (std::uint32_t patch = 0; patch < cells_.size(); ++patch)
+    for (const Cell& cut : cells_[patch]) {
+      Cell cell = cut;
+      insert_hanging(&cell);
+      HC_TRY(cells->corners.append(std::span<const std::uint32_t>(cell)));
+      HC_TRY(check_mesh_size(0, cells->corners.size(), 0, "begin with a coarser mesh"));
+      HC_TRY(cells->corner_offsets.push_back(static_cast<std::uint32_t>(cells->corners.size())));
+      for (std::size_t k = 0; k < cell.size(); ++k) {
+        const auto found = lights_.find(edge_key(cell[k], cell[next_of(k, cell.size())]));
+        HC_TRY(cells->edge_light.push_back(found != lights_.end() ? found->second
+                                                                  : EdgeLight::kSmooth));
+      }
+      HC_TRY(cells->face.push_back(patches_->face[patch]));
+      HC_TRY(cells->parent.push_back(patches_->parent[patch]));
+      HC_TRY(cells->material.push_back(patches_->material[patch]));
+      HC_TRY(cells->group.push_back(patches_->group[patch]));
+    }
+  HC_TRY(measure_patches(cells));
+  cells->front_count = cells->patch_count();
+  return {};
+}
+
+} // namespace hemicube::radiosity

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "radiosity/mesh/patch_set.h"
+#include "radiosity/mesh/position_hash.h"
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace hemicube::radiosity {
+
+/// Cuts patches into convex cells along lines. A cut goes on to the border of the cell it is in.
+/// Patches that share an edge keep sharing it: a vertex that one of them gets there is a corner of
+/// the other one, too.
+class PatchCutter {
+public:
+  /// @param patches  fronts only; outlive this
+  Status init(const PatchSet& patches);
+
+  std::uint64_t cell_count() const noexcept { return cell_count_; }
+
+  /// Cuts the cells of a patch that a line runs through. Corners closer to it than `snap` are taken
+  /// to lie on it, so that no edge shorter than `snap` comes about; where it runs along an edge,
+  /// nothing is cut.
+  /// @param light  across the line; where it jumps, the ends become vertices
+  /// @param snap   metres, more than the resolution of the coordinates
+  void cut(std::uint32_t patch, const Vec3& begin, const Vec3& end, EdgeLight light, double snap);
+
+  /// Notes what light does across the edges of cells that a line takes up, closer to it than
+  /// `snap`: after all cuts, for a cut that goes on beyond the line is not of it.
+  void note_light(std::uint32_t patch, const Vec3& begin, const Vec3& end, EdgeLight light,
+                  double snap);
+
+  /// The cells as a mesh of fronts, those of a patch one after the other, with its face and parent.
+  /// @return as measure_patches
+  Status make_mesh(PatchSet* cells) const;
+
+private:
+  using Cell = std::vector<std::uint32_t>; ///< vertices, counter-clockwise
+
+  struct Line;
+
+  /// How a line meets a cell.
+  struct Crossing {
+    std::vector<double> side, along; ///< [corner] metres from the line and along it
+    double begin = 0, end = 0;       ///< of the chord
+    std::size_t first = 0,
+                second = 0; ///< where it enters and leaves: the corner, or the edge after
+    bool divides = false;
+  };
+
+  bool may_touch(const Cell& cell, const Line& line, double snap) const;
+  void find_crossing(const Cell& cell, const Line& line, double snap, Crossing* crossing) const;
+  bool cut_cell(std::uint32_t patch, std::size_t cell, const Crossing& crossing,
+                std::uint32_t ends[2]);
+  void split_at(std::uint32_t a, std::uint32_t b, const Line& line, double along, double snap);
+  bool has_resolved_area(const Cell& cell) const;
+
+  void insert_hanging(Cell* cell) const;
+  void append_hanging(std::uint32_t a, std::uint32_t b, Cell* cell) const;
+  std::uint32_t split_edge(std::uint32_t a, std::uint32_t b, double share);
+  std::uint32_t add_vertex(const Vec3& position);
+  std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) const noexcept;
+
+  const PatchSet* patches_ = nullptr;
+  std::vector<std::vector<Cell>> cells_; ///< [patch]
+  std::vector<Vec3> vertices_;           ///< those of the patches first
+  std::vector<std::uint32_t> place_;     ///< [vertex] the first vertex at the same position
+  // All are looked up only, never walked. Edges go by their two places.
+  std::unordered_map<Vec3, std::uint32_t, PositionHash> vertex_at_;
+  std::unordered_map<std::uint64_t, std::uint32_t> splits_; ///< the vertex on an edge
+  std::unordered_map<std::uint64_t, EdgeLight> lights_;     ///< across edges where it is not smooth
+  std::uint64_t cell_count_ = 0;
+};
+
+} // namespace hemicube::radiosity
