@@ -1,6 +1,7 @@
 #include "bench/refinement/truth_patches.h"
 
 #include "radiosity/form_factor/convex_polygon.h"
+#include "tests/support/drawn_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,24 @@ double common_area(const ConvexPolygon& element, const ConvexPolygon& patch, con
 
 } // namespace
 
+/// Sums up over patches, band by band.
+struct TruthPatches::Errors {
+  std::vector<double> difference, squares;
+
+  explicit Errors(std::size_t bands) : difference(bands), squares(bands) {}
+
+  void add(std::size_t band, double area, double value, double truth) {
+    difference[band] += area * (value - truth) * (value - truth);
+    squares[band] += area * truth * truth;
+  }
+  double worst() const {
+    double worst = 0;
+    for (std::size_t b = 0; b < squares.size(); ++b)
+      worst = std::max(worst, std::sqrt(difference[b] / squares[b]));
+    return worst;
+  }
+};
+
 double TruthPatches::error(const PatchSet& elements, std::span<const double> radiosity,
                            std::size_t bands) const {
   std::vector<ConvexPolygon> polygons;
@@ -53,7 +72,7 @@ double TruthPatches::error(const PatchSet& elements, std::span<const double> rad
     polygons.push_back(polygon(elements, e));
     boxes.push_back(box_of(polygons.back()));
   }
-  std::vector<double> difference(bands), squares(bands);
+  Errors errors(bands);
   for (std::uint32_t p = 0; p < patches_.patch_count(); ++p) {
     const ConvexPolygon patch = polygon(patches_, p);
     const Box box = box_of(patch);
@@ -77,16 +96,43 @@ double TruthPatches::error(const PatchSet& elements, std::span<const double> rad
     if (std::fabs(area / patches_.area[p] - 1) > 1e-2)
       throw std::runtime_error("elements do not cover patch " + std::to_string(p) + ": " +
                                std::to_string(area / patches_.area[p]));
-    for (std::size_t b = 0; b < bands; ++b) {
-      const double truth = truth_[p][b].get<double>();
-      difference[b] += patches_.area[p] * (power[b] / area - truth) * (power[b] / area - truth);
-      squares[b] += patches_.area[p] * truth * truth;
-    }
+    for (std::size_t b = 0; b < bands; ++b)
+      errors.add(b, patches_.area[p], power[b] / area, truth_[p][b].get<double>());
   }
-  double worst = 0;
-  for (std::size_t b = 0; b < bands; ++b)
-    worst = std::max(worst, std::sqrt(difference[b] / squares[b]));
-  return worst;
+  return errors.worst();
+}
+
+double TruthPatches::drawn_error(const PatchSet& elements, std::span<const double> radiosity,
+                                 std::size_t bands, int up) const {
+  constexpr int kPoints = 4;
+  test::DrawnLight light(elements, radiosity, static_cast<std::uint32_t>(bands));
+  Errors errors(bands);
+  std::vector<double> values(bands), mean(bands);
+  for (std::uint32_t p = 0; p < patches_.patch_count(); ++p) {
+    const auto corners = patches_.corners_of(p);
+    if (patches_.normal[p][up] < kSameNormal || std::fabs(patches_.centre[p][up]) > kSamePlane)
+      continue;
+    const auto corner = [&](std::size_t k) {
+      return patches_.vertices[corners[k % corners.size()]];
+    };
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for (int i = 0; i < kPoints * kPoints; ++i) {
+      const double u = (i % kPoints + 0.5) / kPoints, v = (i / kPoints + 0.5) / kPoints;
+      // Points that stand for equal areas, of a triangle, too.
+      const double across = corners.size() == 3 ? std::sqrt(u) : u;
+      const Vec3 point = corners.size() == 3
+                             ? corner(0) + across * ((1 - v) * (corner(1) - corner(0)) +
+                                                     v * (corner(2) - corner(0)))
+                             : (1 - v) * ((1 - u) * corner(0) + u * corner(1)) +
+                                   v * ((1 - u) * corner(3) + u * corner(2));
+      light.at(point, patches_.normal[p], values);
+      for (std::size_t b = 0; b < bands; ++b)
+        mean[b] += values[b] / (kPoints * kPoints);
+    }
+    for (std::size_t b = 0; b < bands; ++b)
+      errors.add(b, patches_.area[p], mean[b], truth_[p][b].get<double>());
+  }
+  return errors.worst();
 }
 
 } // namespace hemicube::bench

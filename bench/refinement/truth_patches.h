@@ -22,7 +22,13 @@ public:
   double error(const radiosity::PatchSet& elements, std::span<const double> radiosity,
                std::size_t bands) const;
 
+  /// The same of light on the floor as it is drawn: its means over these patches, by 4 x 4 points
+  /// each. @param up  the axis that is 0 on the floor
+  double drawn_error(const radiosity::PatchSet& elements, std::span<const double> radiosity,
+                     std::size_t bands, int up) const;
+
 private:
+  struct Errors;
   radiosity::PatchSet patches_;
   nlohmann::json truth_;
 };
