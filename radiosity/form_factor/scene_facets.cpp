@@ -35,8 +35,9 @@ Status SceneFacets::build(const PatchSet& patches) {
   HC_TRY(find_overlaps());
   for (PatchPiece& piece : pieces_)
     for (const std::uint32_t other : overlaps_of(face_of(piece.patch)))
-      piece.has_copies =
-          piece.has_copies || glm::dot(face(other).plane.normal, piece.facet.plane.normal) > 0;
+      if (patches_of(other)[0] < piece.patch &&
+          glm::dot(face(other).plane.normal, piece.facet.plane.normal) > 0)
+        piece.is_covered = true;
   anything_hides_ = !overlaps_.empty();
   for (const std::uint8_t can_block : can_block_)
     anything_hides_ = anything_hides_ || can_block != 0;
@@ -90,7 +91,7 @@ PatchPiece SceneFacets::part_of(std::uint32_t patch, std::span<const Vec3> corne
   const PatchPiece& whole = pieces_of(patch)[0];
   PatchPiece part;
   part.patch = patch;
-  part.has_copies = whole.has_copies;
+  part.is_covered = whole.is_covered;
   part.facet = Facet::of(corners, whole.facet.plane.normal);
   part.prepared = prepare_area(corners, whole.facet.plane.normal);
   part.area = glm::length(area_vector(corners));

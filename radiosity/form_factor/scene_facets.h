@@ -12,7 +12,8 @@ namespace hemicube::radiosity {
 /// corners.
 struct PatchPiece {
   std::uint32_t patch = 0;
-  bool has_copies = false; ///< other fronts lie in the same place, as far as some of it goes
+  bool is_covered = false; ///< a front of a lower id may lie in the same place as some of it: it is
+                           ///< seen less than it sees
   double area = 0;
   Facet facet;
   PreparedArea prepared;

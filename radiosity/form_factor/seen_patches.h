@@ -5,10 +5,10 @@
 
 namespace hemicube::radiosity {
 
-/// Whether two pieces say the same of each other. Of coincident fronts only one is seen, but all
-/// see.
+/// Whether two pieces say the same of each other. Of coincident fronts only that of the lowest id
+/// is seen, but all see.
 inline bool are_mutual(const PatchPiece& a, const PatchPiece& b) noexcept {
-  return !a.has_copies && !b.has_copies;
+  return !a.is_covered && !b.is_covered;
 }
 
 /// Which of two pieces of one scene a pair belongs to: points are placed on the smaller one, where

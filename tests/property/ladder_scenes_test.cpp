@@ -53,9 +53,7 @@ void expect_copy_unseen(const PolygonList& single, std::size_t copied, const Lad
     const std::vector<double> a = expected.dense_row(i), b = actual.dense_row(i);
     EXPECT_EQ(b.back(), 0.0) << copied << ": the copy is seen from " << i;
     for (std::uint32_t j = 0; j < single.size(); ++j)
-      EXPECT_NEAR(b[j], a[j],
-                  1e-9 + (level.rung == radiosity::Rung::kAdaptive ? 0.01 * level.error : 0))
-          << copied << " twice, from " << i << " to " << j;
+      EXPECT_NEAR(b[j], a[j], 1e-12) << copied << " twice, from " << i << " to " << j;
   }
 }
 
