@@ -8,17 +8,6 @@
 namespace hemicube::test {
 namespace {
 
-double shortest_edge(const PatchSet& mesh) {
-  double shortest = 1e300;
-  for (std::uint32_t e = 0; e < mesh.patch_count(); ++e) {
-    const auto corners = mesh.corners_of(e);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      shortest = std::min(shortest, glm::length(mesh.vertices[corners[k]] -
-                                                mesh.vertices[corners[(k + 1) % corners.size()]]));
-  }
-  return shortest;
-}
-
 // Catches: a bound that cuts, or the cuts that even neighbours out, are let past; an end that is
 // not told.
 TEST(AdaptiveLimits, ThereAreNeverMoreElementsThanAllowed) {
@@ -52,28 +41,6 @@ TEST(AdaptiveLimits, LimitsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(adapted.status.code(), StatusCode::kInvalidArgument)
         << refinement.variation << " " << refinement.min_edge << " " << refinement.max_elements;
   }
-}
-
-// The light at the edge of two plates changes ever more on the way to it: by as much across any
-// element beside it, however small. Catches: refinement that does not end there, or ends elsewhere.
-TEST(AdaptiveLimits, EndsAtTheEdgeOfTwoPlates) {
-  SceneBuilder builder(1);
-  const std::uint32_t grey = builder.material("grey", 0.5, 0);
-  const std::uint32_t lamp = builder.material("lamp", 0.5, 1);
-  builder.grid(grey, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 2, 2);
-  builder.grid(lamp, {0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, 2, 2);
-  const Scene scene = builder.finish();
-  Adapted adapted;
-  adapt(scene, limits(0.3, 0.03), on_rung(Rung::kArea), &adapted);
-  ASSERT_TRUE(adapted.status.ok()) << adapted.status.message();
-  EXPECT_TRUE(adapted.report.end == RefinementEnd::kMinEdge ||
-              adapted.report.end == RefinementEnd::kVariation)
-      << radiosity::refinement_end_name(adapted.report.end);
-  EXPECT_GT(adapted.elements.patch_count(), 16u);
-  EXPECT_LT(adapted.elements.patch_count(), 1000u) << "2048 would be cut evenly";
-  const double smallest = shortest_edge(adapted.elements);
-  EXPECT_GE(smallest, 0.03);
-  EXPECT_LE(smallest, 0.13) << "not refined at the edge";
 }
 
 // A slender triangle along a floor that is cut finely. Catches: cuts that even neighbours out

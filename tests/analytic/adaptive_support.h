@@ -45,6 +45,17 @@ inline Refinement limits(double variation, double min_edge = 0,
   return {variation, min_edge, max_elements};
 }
 
+inline double shortest_edge(const PatchSet& mesh) {
+  double shortest = 1e300;
+  for (std::uint32_t e = 0; e < mesh.patch_count(); ++e) {
+    const auto corners = mesh.corners_of(e);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      shortest = std::min(shortest, glm::length(mesh.vertices[corners[k]] -
+                                                mesh.vertices[corners[(k + 1) % corners.size()]]));
+  }
+  return shortest;
+}
+
 /// A closed room 2 x 1 x 1 under a lamp of 8 patches, with a two-sided screen in it that throws a
 /// shadow; scaled, then moved.
 inline Scene shadow_room(double scale = 1, const Vec3& move = {0, 0, 0}) {

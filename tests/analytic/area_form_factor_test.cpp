@@ -151,26 +151,6 @@ TEST(PointToPolygon, TheHorizonCutsPolygons) {
   EXPECT_EQ(point_to_polygon(Vec3(0, 0, 0), up, below), 0.0);
 }
 
-// Catches: 0/0 at repeated corners and with the eye on the contour; values outside 0..1.
-TEST(PointToPolygon, DegeneratePlacesAreFinite) {
-  const std::vector<Vec3> square = {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
-  const std::vector<Vec3> repeated = {square[0], square[0], square[1], square[2],
-                                      square[2], square[2], square[3]};
-  const Vec3 up(0, 0, 1), eye(0.25, 0.5, 0);
-  EXPECT_NEAR(point_to_polygon(eye, up, repeated), point_to_polygon(eye, up, square), 1e-15);
-  Random random(4);
-  for (int i = 0; i < 3000; ++i) {
-    const auto polygon =
-        random_ngon(random, 3 + static_cast<int>(random.index(6)), random.point(-1, 1), 1);
-    const Vec3 normal = random_frame(random)[2];
-    const Vec3 middle = (polygon[0] + polygon[1]) * 0.5;
-    for (const Vec3& place : {polygon[0], middle, (middle + polygon[2]) * 0.5}) {
-      const double value = point_to_polygon(place, normal, polygon);
-      EXPECT_TRUE(value >= 0 && value <= 1) << value;
-    }
-  }
-}
-
 // Catches: everything that one shape, distance or angle can have wrong, see the tags.
 TEST(AreaToArea, AgreesWithTheReference) {
   for (const nlohmann::json& one : unoccluded(false)) {

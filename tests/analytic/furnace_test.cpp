@@ -22,7 +22,7 @@ std::vector<Furnace> furnaces() {
   std::vector<Furnace> all;
   for (const char* name : {"furnace_cube", "furnace_lroom", "furnace_boxes", "furnace_icosphere2",
                            "furnace_torus", "furnace_cube_0999", "furnace_cube_0999999"})
-    for (const std::uint32_t resolution : {64u, 256u, 512u})
+    for (const std::uint32_t resolution : {64u, 256u})
       all.push_back({name, resolution});
   return all;
 }

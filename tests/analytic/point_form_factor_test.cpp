@@ -111,31 +111,5 @@ TEST(PairFormFactors, AreThePointFormFactorsUpToPixels) {
   }
 }
 
-// Catches: leaks at a blocker's rim, backs that radiate, coplanar patches that see each other.
-TEST(PairFormFactors, ZeroIsExactlyZero) {
-  for (const char* name : {"occ_total", "zero_coplanar", "zero_backfacing"}) {
-    const CasePatches made(reference_case("formfactors.json", name));
-    for (const std::uint32_t resolution : {16u, 64u, 200u, 256u, 1024u}) {
-      radiosity::Options options;
-      options.resolution = resolution;
-      FormFactors factors;
-      compute_all(made.patches, options, 1, &factors);
-      EXPECT_EQ(entry(factors.matrix.row(0), 1), 0.0) << name << " at " << resolution;
-    }
-  }
-}
-
-// A unit square at distance 1 over another, seen from its centre: the largest case of aliasing by
-// the hemicube's orientation, since all four edges of the image may run along pixel rows. Catches:
-// a frame aligned with, or turned by a simple fraction against, the edges of rooms.
-TEST(PairFormFactors, OrientationAliasingIsSmall) {
-  const CasePatches made(reference_case("formfactors.json", "par_1x1_gap1"));
-  radiosity::Options options;
-  options.resolution = 512;
-  FormFactors factors;
-  compute_all(made.patches, options, 1, &factors);
-  EXPECT_NEAR(entry(factors.matrix.row(0), 1), 0.239456, 2.5e-4);
-}
-
 } // namespace
 } // namespace hemicube::test

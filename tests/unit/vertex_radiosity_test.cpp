@@ -44,20 +44,6 @@ TEST(VertexRadiosity, AConstantFieldStaysConstantOnAnyMesh) {
     EXPECT_NEAR(value, 7, 1e-5);
 }
 
-TEST(VertexRadiosity, NothingCrossesAnEdgeOfARoom) {
-  // The floor is lit, the walls are dark.
-  const PatchSet patches = patches_of(hemicube::test::furnace_cube(4, 0.5, 1));
-  std::vector<double> radiosity;
-  for (const Vec3& normal : patches.normal)
-    radiosity.push_back(normal.y > 0.5 ? 1 : 0);
-  Buffer<float> corners;
-  require(vertex_radiosities(patches, radiosity, 1, &corners));
-  for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch)
-    for (std::uint32_t c = patches.corner_offsets[patch]; c < patches.corner_offsets[patch + 1];
-         ++c)
-      EXPECT_EQ(corners[c], radiosity[patch]);
-}
-
 TEST(VertexRadiosity, NothingCrossesMaterialsOrSidesOfAPatch) {
   SceneBuilder builder(1);
   const std::uint32_t red = builder.material("red", 0.5, 0),
