@@ -166,7 +166,10 @@ void print_json(std::span<const Outcome> outcomes, std::uint64_t failures) {
 Status run_verify(const CommandLine& line) {
   ThreadPool pool;
   HC_TRY(pool.init(line.threads));
-  const std::vector<VerifyCase> cases = verify_cases();
+  std::vector<VerifyCase> cases = verify_cases();
+  if (line.all_cases)
+    for (VerifyCase& hard : verify_hard_cases())
+      cases.push_back(std::move(hard));
   std::vector<Outcome> outcomes;
   std::uint64_t failures = 0;
   if (!line.json && !line.quiet)

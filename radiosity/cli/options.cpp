@@ -352,7 +352,8 @@ private:
   void add_verify() {
     add_command(Command::kVerify, "verify",
                 "Compute what is known exactly, on every rung or on that of --rung: a table of "
-                "errors and times");
+                "errors and times")
+        ->add_flag("--all", line_.all_cases, "also what is hard: thin, tiny, far, coincident");
   }
 
   CommandLine& line_;

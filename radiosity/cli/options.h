@@ -96,6 +96,7 @@ struct CommandLine {
   double exposure = 0;                      ///< solve, render; 0 = chosen
   std::optional<std::uint32_t> patch, face; ///< look: one of them
   bool whole_row = false;                   ///< look --all
+  bool all_cases = false;                   ///< verify --all
 };
 
 /// What parse_command_line leaves to do.

@@ -5,9 +5,6 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
-using Bounds = std::array<double, kRungCount>; // hemicube, analytic, area, adaptive, exact
-using Polygon = std::vector<Vec3>;
-
 // What the rungs promise: hemicube, analytic, area, adaptive, exact. Figures in brackets are the
 // largest that were measured. A bound that is more than ten times as large is the rung's own
 // target.
@@ -27,49 +24,12 @@ const Bounds kNearlyFlat = {kNone, kNone, 2e-7, 2e-7, 1e-10};
 // Partly hidden pairs. The target of adaptive is an RMS over all pairs, relative to that of F: of a
 // single pair ten times as much is allowed (2.5e-3). Exact promises 1e-6 (8.7e-7).
 const Bounds kOccluded = {kNone, kNone, kNone, 10 * kVerifyError, 1e-6};
-// Nothing is seen by any rung.
-const Bounds kHidden = {0, 0, 0, 0, 0};
 // The sums of rows are 1 on every rung, whatever the rows: rounding (1.3e-15).
 const Bounds kFurnace = {1e-14, 1e-14, 1e-14, 1e-14, 1e-14};
 // Reciprocal form factors, entries rounded to float (6e-8), which averages out (9e-12).
 const Bounds kReciprocal = {kNone, kNone, 5e-11, 5e-11, 5e-11};
 // Errors of single pairs average out in the sum: the targets themselves.
 const Bounds kShared = {kNone, kNone, kNone, kVerifyError, 1e-6};
-
-Polygon rectangle(double width, double depth) {
-  return {{0, 0, 0}, {width, 0, 0}, {width, depth, 0}, {0, depth, 0}};
-}
-
-/// The rectangle above it that looks down.
-Polygon ceiling(double width, double depth, double height) {
-  return {{0, depth, height}, {width, depth, height}, {width, 0, height}, {0, 0, height}};
-}
-
-Polygon turned_round(const Polygon& polygon) {
-  return {polygon.rbegin(), polygon.rend()};
-}
-
-/// @param blockers  hide from both sides
-VerifyCase pair(const char* name, double exact, const Bounds& bounds, const Polygon& from,
-                const Polygon& to, const std::vector<Polygon>& blockers = {}) {
-  VerifyCase made{name, VerifyKind::kPatchToPatch, exact, bounds, {}};
-  const std::uint32_t grey = made.scene.material(0.5, 1);
-  made.scene.face(grey, from);
-  made.scene.face(grey, to);
-  for (const Polygon& blocker : blockers) {
-    made.scene.face(grey, blocker);
-    made.scene.face(grey, turned_round(blocker));
-  }
-  return made;
-}
-
-/// From a point that looks up.
-VerifyCase point(const char* name, double exact, const Bounds& bounds, const Vec3& position,
-                 const Polygon& to) {
-  VerifyCase made{name, VerifyKind::kPointToPatch, exact, bounds, {}, {position, {0, 0, 1}}};
-  made.scene.face(made.scene.material(0.5, 1), to);
-  return made;
-}
 
 /// Two unit squares that meet in an edge, by the cosine and sine of the angle between them.
 VerifyCase wedge(const char* name, double exact, const Bounds& bounds, double cosine, double sine) {

@@ -1,44 +1,14 @@
 #pragma once
 
-#include "radiosity/cli/verify_scene.h"
-#include "radiosity/radiosity.h"
-
-#include <array>
-#include <limits>
-#include <string>
-#include <vector>
+#include "radiosity/cli/verify_case.h"
 
 namespace hemicube::radiosity::cli {
 
-/// What is looked at in a case.
-enum class VerifyKind {
-  kPatchToPatch, ///< the form factor from patch 0 to patch 1
-  kPointToPatch, ///< the form factor from a point to patch 0
-  kRadiosity,    ///< the radiosity of the patch that is farthest from the exact one
-  kImbalance,    ///< the certificate's energy.imbalance
-  kSharedPower   ///< sum A_i F_ij over i of material 0 and j of material 1, over their area A_j
-};
-
-inline constexpr std::size_t kRungCount = 5;
-
-/// For a rung that promises nothing of a case.
-inline constexpr double kNoPromise = std::numeric_limits<double>::infinity();
-
-/// A scene with one number that is known exactly.
-struct VerifyCase {
-  std::string name;
-  VerifyKind kind = VerifyKind::kPatchToPatch;
-  double exact = 0;
-  /// [rung] largest relative error, absolute if the exact value is 0, at resolution 256 and with
-  /// the target kVerifyError.
-  std::array<double, kRungCount> bounds;
-  VerifyScene scene;
-  Receiver point{}; ///< of kPointToPatch
-};
-
-/// What rung adaptive is asked for, unless --error says otherwise.
-inline constexpr double kVerifyError = 1e-3;
-
+/// What `hemicube verify` computes.
 std::vector<VerifyCase> verify_cases();
+
+/// What `--all` adds: near, thin, tiny, far, grazing, coincident, nearly white. Their bounds are
+/// those of tests/hard_cases/README.md.
+std::vector<VerifyCase> verify_hard_cases();
 
 } // namespace hemicube::radiosity::cli
