@@ -136,8 +136,11 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
   HC_TRY(compute_some_rows(
       &geometry, rows.size(), [&](std::uint64_t k) { return RowPlace{rows[k]}; }, setting, options,
       executor, progress, matrix, certificate));
-  certificate->space.worst_patch = rows[certificate->space.worst_patch];
-  certificate->back_side.worst_patch = rows[certificate->back_side.worst_patch];
+  for (WorstFraction* fraction : {&certificate->space, &certificate->back_side}) {
+    fraction->worst_patch = rows[fraction->worst_patch];
+    for (std::size_t k = 0; k < fraction->listed().size(); ++k)
+      fraction->worst[k].patch = rows[fraction->worst[k].patch];
+  }
   return {};
 }
 

@@ -20,6 +20,17 @@ void extend(double value, std::uint64_t index, bool first, WorstFraction* worst)
     worst->max = value;
     worst->worst_patch = static_cast<std::uint32_t>(index);
   }
+  if (!(value > WorstFraction::kRounding))
+    return;
+  std::size_t place = worst->listed().size();
+  ++worst->count;
+  if (place == WorstFraction::kListed) {
+    if (!(value > worst->worst[--place].fraction))
+      return;
+  }
+  for (; place > 0 && worst->worst[place - 1].fraction < value; --place)
+    worst->worst[place] = worst->worst[place - 1];
+  worst->worst[place] = {static_cast<std::uint32_t>(index), value};
 }
 
 } // namespace

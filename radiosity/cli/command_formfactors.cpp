@@ -122,7 +122,8 @@ Status run_formfactors(const CommandLine& line) {
     print(session.report_text(certificate));
   else if (!line.quiet)
     print_summary(session, certificate, line.output);
-  return check_requirements(line.requirements, {certificate, closure});
+  return check_requirements(line.requirements,
+                            {certificate, closure, of_points ? "point" : "patch"});
 }
 
 } // namespace hemicube::radiosity::cli

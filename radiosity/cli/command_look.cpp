@@ -1,6 +1,8 @@
 #include "radiosity/cli/commands.h"
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/session.h"
+#include "radiosity/hemicube/five_views.h"
+#include "radiosity/output/hemicube_losses.h"
 #include "radiosity/output/image_writer.h"
 #include "radiosity/output/look_picture.h"
 
@@ -10,7 +12,7 @@
 namespace hemicube::radiosity::cli {
 namespace {
 
-constexpr std::size_t kLargestShown = 20;
+constexpr std::size_t kLargestShown = 20, kBacksShown = 10;
 
 struct Entry {
   std::uint32_t patch;
@@ -57,17 +59,24 @@ Status choose_patch(const Session& session, std::uint32_t* patch) {
   return {};
 }
 
-Status draw(const Session& session, std::uint32_t patch) {
+/// Renders the hemicube, says where light is lost, and draws the picture where one is wanted.
+Status draw(const Session& session, std::uint32_t patch, HemicubeLosses* losses) {
   const Options& options = session.line.options;
+  const PatchSet& patches = session.loaded.patches;
+  const std::string& output = session.line.output;
   FileSet files;
   std::string name;
-  HC_TRY(files.begin_file(session.line.output, &name));
-  HC_TRY(load_image_plugin());
+  if (!output.empty()) {
+    HC_TRY(files.begin_file(output, &name));
+    HC_TRY(load_image_plugin());
+  }
   HemicubeImage hemicube;
-  HC_TRY(render_hemicube(session.loaded.patches, patch, options.resolution, *options.kernels,
-                         &hemicube));
+  HC_TRY(render_hemicube(patches, patch, options.resolution, *options.kernels, &hemicube));
   DeltaFormFactors weights;
   HC_TRY(weights.init(options.resolution));
+  HC_TRY(find_losses(hemicube, weights, hemicube_view(patches, patch), losses));
+  if (output.empty())
+    return {};
   ColorImage image;
   HC_TRY(draw_look(hemicube, weights, &image));
   HC_TRY(write_display_image(&files, name, image));
@@ -81,6 +90,8 @@ struct Look {
   RowView row;
   std::vector<Entry> entries; ///< all, or the largest
   std::uint64_t item_hash;
+  const HemicubeLosses& losses;
+  std::span<const HemicubeLosses::Back> backs; ///< all, or the first
 
   std::string_view material(std::uint32_t of_patch) const {
     return loaded.scene.materials[loaded.patches.material[of_patch]];
@@ -100,6 +111,13 @@ void print_json(const Look& look) {
   json["row_sum"] = row_sum(look.row);
   json["space"] = look.row.space;
   json["back_side"] = look.row.back_side;
+  const Vec3& towards = look.losses.space_towards;
+  if (look.losses.space > 0)
+    json["space_towards"] = {towards.x, towards.y, towards.z};
+  for (const HemicubeLosses::Back& back : look.backs) {
+    json["backs"].push_back(patch_json(back.patch));
+    json["backs"].back()["fraction"] = back.fraction;
+  }
   json["nonzeros"] = look.row.columns.size();
   json["hashes"]["items"] = hex(look.item_hash);
   Json& row = json["row"] = Json::array();
@@ -119,6 +137,11 @@ void print_csv(const Look& look) {
   print("# patch,face,material " + place(look.patch) + "\n");
   print(concat("# row_sum ", row_sum(look.row), "\n# space ", look.row.space, "\n# back_side ",
                look.row.back_side, "\n# items ", hex(look.item_hash), "\n"));
+  const Vec3& towards = look.losses.space_towards;
+  if (look.losses.space > 0)
+    print(concat("# space towards ", towards.x, ",", towards.y, ",", towards.z, "\n"));
+  for (const HemicubeLosses::Back& back : look.backs)
+    print(concat("# back of patch,face,material ", place(back.patch), ": ", back.fraction, "\n"));
   print("patch,face,material,form_factor\n");
   for (const Entry& entry : look.entries)
     print(concat(place(entry.patch), ",", entry.form_factor, "\n"));
@@ -145,10 +168,17 @@ Status run_look(const CommandLine& line) {
   FormFactorMatrix matrix;
   Certificate certificate;
   HC_TRY(session.form_factors({&patch, 1}, &matrix, &certificate));
-  if (!line.output.empty())
-    HC_TRY(draw(session, patch));
+  HemicubeLosses losses;
+  HC_TRY(draw(session, patch, &losses));
 
-  Look look{session.loaded, patch, matrix.row(0), sorted_row(matrix.row(0)), certificate.item_hash};
+  const std::size_t shown = line.whole_row ? losses.backs.size() : kBacksShown;
+  Look look{session.loaded,
+            patch,
+            matrix.row(0),
+            sorted_row(matrix.row(0)),
+            certificate.item_hash,
+            losses,
+            losses.backs.span().first(std::min(shown, losses.backs.size()))};
   if (!line.whole_row && look.entries.size() > kLargestShown)
     look.entries.resize(kLargestShown);
   line.json ? print_json(look) : print_csv(look);

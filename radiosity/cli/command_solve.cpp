@@ -109,7 +109,8 @@ Status run_solve(const CommandLine& line) {
   else if (!line.quiet)
     print_summary(session, certificate);
   const Status checked =
-      check_requirements(line.requirements, {certificate, closure_error(solution)});
+      check_requirements(line.requirements, {certificate, closure_error(solution),
+                                             line.refinement.adaptive ? "element" : "patch"});
   if (solved.ok() || checked.ok())
     return solved.ok() ? checked : solved;
   flush_output();

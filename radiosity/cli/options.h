@@ -67,6 +67,7 @@ struct Requirement {
   double bound;
   /// Nothing if the run does not have the quantity.
   std::optional<double> (*value)(const CheckedRun& run);
+  std::string (*advice)(const CheckedRun& run); ///< where it is broken, what to do; may be null
 };
 
 /// The command line, checked as far as it can be without the scene. Only the members a command has

@@ -20,6 +20,30 @@ Value back_side(const CheckedRun& run) {
   return run.certificate.back_side.max;
 }
 
+/// Where light is lost, and how to see it.
+std::string advice_on(const WorstFraction& fraction, const char* what, const char* remedy,
+                      const CheckedRun& run) {
+  if (fraction.count == 0)
+    return {};
+  const std::uint32_t worst = fraction.worst[0].patch;
+  std::string text = concat(" (", counted(fraction.count, "row sees ", "rows see "), what,
+                            ", most that of ", run.row_of, " ", worst, ": ", remedy);
+  if (run.row_of == "patch")
+    text += concat("; `hemicube look SCENE --patch ", worst, " -o look.png` shows where");
+  return text + ")";
+}
+
+std::string space_advice(const CheckedRun& run) {
+  return advice_on(run.certificate.space, "space",
+                   "close the gap in front of it, or turn it round if it is the outside of a body",
+                   run);
+}
+
+std::string back_side_advice(const CheckedRun& run) {
+  return advice_on(run.certificate.back_side, "back sides",
+                   "turn round the faces it sees, or make their material two-sided", run);
+}
+
 Value closure(const CheckedRun& run) {
   return run.closure_error;
 }
@@ -61,13 +85,13 @@ struct Condition {
   Of of;
   std::optional<double> fixed; ///< the bound; without it, `=X` gives it
   Value (*value)(const CheckedRun& run);
+  std::string (*advice)(const CheckedRun& run) = nullptr;
 
   bool is_for(bool solves) const { return of == Of::kAll || (of == Of::kSolve) == solves; }
 };
-constexpr double kSpaceRounding = 1e-12;
 const Condition kConditions[] = {
-    {"closed", "space.max", Of::kAll, kSpaceRounding, space},
-    {"closed", "back_side.max", Of::kAll, 0.0, back_side},
+    {"closed", "space.max", Of::kAll, WorstFraction::kRounding, space, space_advice},
+    {"closed", "back_side.max", Of::kAll, WorstFraction::kRounding, back_side, back_side_advice},
     {"closure", "the farthest row sum + space + back side from 1", Of::kAll, {}, closure},
     {"reciprocity", "reciprocity.rms", Of::kAll, {}, reciprocity},
     {"error", "error.radiosity", Of::kSolve, {}, radiosity_error},
@@ -99,7 +123,7 @@ void add_part(std::string_view part, bool solves, std::vector<Requirement>* requ
       throw BadValue(concat("'", part, "' must be ", name, condition.fixed ? "" : "=X"));
     requirements->push_back({condition.name, condition.quantity,
                              condition.fixed ? *condition.fixed : parse_bound(part),
-                             condition.value});
+                             condition.value, condition.advice});
     found = true;
   }
   if (!found)
@@ -178,6 +202,8 @@ Status check_requirements(std::span<const Requirement> requirements, const Check
     broken += concat(broken.empty() ? "--require " : "; ", requirement.condition, ": ",
                      requirement.quantity, " is ");
     broken += value ? concat(*value, ", must be at most ", requirement.bound) : "not known";
+    if (requirement.advice != nullptr)
+      broken += requirement.advice(run);
   }
   if (broken.empty())
     return {};

@@ -13,7 +13,8 @@ namespace hemicube::radiosity::cli {
 /// What conditions are about: the certificate of a run, and what it does not hold.
 struct CheckedRun {
   const Certificate& certificate;
-  double closure_error = 0; ///< max |row sum + space + back side - 1| over the rows
+  double closure_error = 0;          ///< max |row sum + space + back side - 1| over the rows
+  std::string_view row_of = "patch"; ///< what a row is of: "patch", "element" or "point"
 };
 
 double closure_error(const Solution& solution);

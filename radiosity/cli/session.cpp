@@ -202,7 +202,7 @@ std::string losses_text(const Certificate& certificate) {
   const auto add = [&text](const char* name, const WorstFraction& fraction) {
     if (fraction.max > 0)
       text += concat(text.empty() ? "; worst " : ", ", name, " ", rounded(fraction.max), " (patch ",
-                     fraction.worst_patch, ")");
+                     fraction.worst_patch, "; ", fraction.count, " see some)");
   };
   add("space", certificate.space);
   add("back side", certificate.back_side);

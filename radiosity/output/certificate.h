@@ -6,6 +6,7 @@
 #include "raster/memory.h"
 
 #include <cstdint>
+#include <span>
 
 namespace hemicube::radiosity {
 
@@ -15,10 +16,24 @@ struct Range {
 };
 
 /// A fraction that should be small: its area-independent mean over the patches, its largest value
-/// and the lowest patch that has it.
+/// and the patches that have most of it.
 struct WorstFraction {
+  static constexpr std::uint64_t kListed = 10;
+  /// Less of a view is what rounding leaves of backs in the receiver's own plane.
+  static constexpr double kRounding = 1e-12;
+  struct Patch {
+    std::uint32_t patch = 0;
+    double fraction = 0;
+  };
+
   double mean = 0, max = 0;
-  std::uint32_t worst_patch = 0;
+  std::uint32_t worst_patch = 0; ///< the lowest that has the largest value
+  std::uint64_t count = 0;       ///< patches whose fraction is above kRounding
+  Patch worst[kListed];          ///< the first of them: most first, of equal ones the lower patch
+
+  std::span<const Patch> listed() const noexcept {
+    return {worst, count < kListed ? count : kListed};
+  }
 };
 
 /// Power in W, one band.

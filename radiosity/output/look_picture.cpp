@@ -62,19 +62,16 @@ public:
                            static_cast<std::size_t>(pixel.x);
     const raster::Item item = face.items[at];
     if (item == raster::kNoItem)
-      return grey(0);
+      return panel == 0 ? kSpaceColor : grey(0);
     return panel == 0 ? shown_item(item, pixel)
                       : grey(encode_(static_cast<double>(face.depths[at]) / nearest_));
   }
 
 private:
   static Color shown_item(raster::Item item, const FacePixel& pixel) {
-    Color color = item_color(raster::item_id(item));
-    if (raster::is_back_facing(item))
-      for (std::uint8_t& channel : color)
-        channel = static_cast<std::uint8_t>((pixel.x + pixel.y) / kStripe % 2 == 0 ? channel / 2
-                                                                                   : channel / 4);
-    return color;
+    if (raster::is_back_facing(item) && (pixel.x + pixel.y) / kStripe % 2 == 0)
+      return kBackColor;
+    return item_color(raster::item_id(item));
   }
 
   const HemicubeImage& hemicube_;

@@ -29,9 +29,12 @@ struct HemicubeImage {
 Status render_hemicube(const PatchSet& patches, std::uint32_t patch, std::uint32_t resolution,
                        const raster::Kernels& kernels, HemicubeImage* image);
 
-/// Three panels side by side, each the unfolded hemicube: item colours (back-facing ones dark and
-/// striped, space black); depth (nearest white, by 1/z, space black); weight of each pixel (the
-/// heaviest white).
+/// Where light is lost: colours that no item has.
+inline constexpr Color kSpaceColor = {255, 0, 255}, kBackColor = {255, 0, 0};
+
+/// Three panels side by side, each the unfolded hemicube: item colours (back-facing ones striped
+/// with kBackColor, space kSpaceColor); depth (nearest white, by 1/z, space black); weight of each
+/// pixel (the heaviest white).
 /// @param weights  of the same resolution
 /// @return kOutOfMemory
 Status draw_look(const HemicubeImage& hemicube, const DeltaFormFactors& weights, ColorImage* image);

@@ -30,6 +30,12 @@ Json fraction_json(const WorstFraction& fraction) {
   set(&json, "max", fraction.max);
   if (fraction.max > 0)
     json["worst_patch"] = fraction.worst_patch;
+  json["count"] = fraction.count;
+  if (fraction.count == 0)
+    return json;
+  Json& worst = json["worst"] = Json::array();
+  for (const WorstFraction::Patch& one : fraction.listed())
+    worst.push_back({{"patch", one.patch}, {"fraction", one.fraction}});
   return json;
 }
 

@@ -55,12 +55,67 @@ TEST_F(RequireTest, OpenScenesAreNotClosed) {
   write_room();
   for (const std::string command : {"solve", "formfactors"}) {
     expect_broken(command, write("floor.obj", kFloorObj), "closed",
-                  {"--require closed: space.max is 1,", "at most 1e-12"});
+                  {"--require closed: space.max is 1,",
+                   "at most 1e-12 (1 row sees space, most that of patch 0", "close the gap",
+                   "look SCENE --patch 0 "});
     expect_broken(command, write("backs.obj", kBacksObj), "closed",
-                  {"closed: space.max is 1,", "closed: back_side.max is 0.2", "at most 0"});
+                  {"closed: space.max is 1,", "2 rows see space, most that of patch 1",
+                   "closed: back_side.max is 0.2", "1 row sees back sides, most that of patch 0",
+                   "turn round the faces it sees"});
   }
   // A row in the open closes all the same: space is part of it.
   expect_holds("solve", path("floor.obj"), "closure=1e-12");
+}
+
+// Catches: worst patches out of order, or numbered by row.
+TEST_F(RequireTest, TheReportNamesThoseThatLoseMost) {
+  std::string scene = "mtllib room.mtl\n";
+  for (int k = 0; k < 12; ++k) { // floors of growing ceilings, all of them in the open
+    const std::string x = std::to_string(3 * k), x1 = std::to_string(3 * k + 1),
+                      z = std::to_string(0.1 * (k + 1));
+    scene += "v " + x + " 0 0\nv " + x1 + " 0 0\nv " + x1 + " 1 0\nv " + x + " 1 0\n";
+    scene += "v " + x + " 0 " + z + "\nv " + x + " 1 " + z + "\nv " + x1 + " 1 " + z + "\nv " + x1 +
+             " 0 " + z + "\n";
+  }
+  scene += "usemtl white\n";
+  for (int k = 0; k < 12; ++k)
+    scene += "f " + std::to_string(8 * k + 1) + " " + std::to_string(8 * k + 2) + " " +
+             std::to_string(8 * k + 3) + " " + std::to_string(8 * k + 4) + "\nf " +
+             std::to_string(8 * k + 5) + " " + std::to_string(8 * k + 6) + " " +
+             std::to_string(8 * k + 7) + " " + std::to_string(8 * k + 8) + "\n";
+  write_room();
+  const std::string path = write("plates.obj", scene);
+  const auto space = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"formfactors", path, "--rung", "analytic", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return nlohmann::json::parse(run(0, arguments).out)["result"]["space"];
+  };
+  const nlohmann::json all = space({});
+  EXPECT_EQ(all["count"], 24);
+  ASSERT_EQ(all["worst"].size(), 10u);
+  EXPECT_EQ(all["worst"][0]["fraction"], all["max"]);
+  EXPECT_EQ(all["worst"][0]["patch"], all["worst_patch"]);
+  for (std::size_t k = 1; k < 10; ++k) {
+    const nlohmann::json &a = all["worst"][k - 1], &b = all["worst"][k];
+    EXPECT_TRUE(a["fraction"] > b["fraction"] ||
+                (a["fraction"] == b["fraction"] && a["patch"] < b["patch"]))
+        << all;
+    EXPECT_GE(b["patch"], 14) << "the highest ceilings let most out";
+  }
+  const nlohmann::json some = space({"--rows", "0,23"});
+  EXPECT_EQ(some["count"], 2);
+  EXPECT_EQ(some["worst"][0]["patch"], 23);
+  EXPECT_EQ(some["worst"][1]["patch"], 0);
+
+  std::string floors = "mtllib room.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl white\n";
+  for (int k = 0; k < 12; ++k) // all see space alone: the lowest are named
+    floors += "f 1 2 3 4\n";
+  const nlohmann::json equal = nlohmann::json::parse(
+      run(0, {"formfactors", write("floors.obj", floors), "--rung", "hemicube", "--json"})
+          .out)["result"]["space"];
+  EXPECT_EQ(equal["count"], 12);
+  for (std::size_t k = 0; k < 10; ++k)
+    EXPECT_EQ(equal["worst"][k]["patch"], k);
 }
 
 // Catches: the value of another quantity in the message, or of another run than this one.

@@ -137,6 +137,30 @@ TEST_F(LookTest, PrintsTheRowLargestFirst) {
   EXPECT_NE(result.out.find("# space 0\n"), std::string::npos) << result.out;
 }
 
+// Catches: a leak that is only a number.
+TEST_F(LookTest, SaysWhereLightIsLost) {
+  write_room();
+  const std::string scene = write("backs.obj", "mtllib room.mtl\n"
+                                               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                                               "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                                               "usemtl white\nf 1 2 3 4\nf 5 6 7 8\n");
+  const std::vector<std::string> look = {"look", scene, "--patch", "0", "--rung", "hemicube"};
+  std::vector<std::string> json = look;
+  json.push_back("--json");
+  const Json found = Json::parse(run(0, json).out);
+  ASSERT_EQ(found["backs"].size(), 1u);
+  EXPECT_EQ(found["backs"][0]["patch"], 1);
+  EXPECT_EQ(found["backs"][0]["material"], "white");
+  EXPECT_NEAR(found["backs"][0]["fraction"], found["back_side"], 1e-12) << "both are of pixels";
+  EXPECT_GT(found["space_towards"][2], 0.0) << "up, past the sheet";
+  const std::string text = run(0, look).out;
+  EXPECT_NE(text.find("\n# space towards "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# back of patch,face,material 1,1,white: 0.2"), std::string::npos) << text;
+  const Json closed = Json::parse(run(0, {"look", write_room(), "--patch", "0", "--json"}).out);
+  EXPECT_FALSE(closed.contains("space_towards"));
+  EXPECT_FALSE(closed.contains("backs"));
+}
+
 TEST_F(LookTest, PrintsTheWholeRowOnRequest) {
   const std::string scene = write_room();
   const std::vector<std::string> look = {"look",       scene, "--patch", "0",

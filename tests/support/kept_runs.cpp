@@ -33,8 +33,11 @@ std::string text_of(const Certificate& c) {
       {number(c.patches), number(c.hemicubes), number(c.nonzeros), number(c.subpixel_patches)});
   for (const radiosity::Range& range : {c.row_sum_raw, c.row_sum})
     add("row sums", {range.min, range.mean, range.max});
-  for (const radiosity::WorstFraction& worst : {c.space, c.back_side})
-    add("losses", {worst.mean, worst.max, number(worst.worst_patch)});
+  for (const radiosity::WorstFraction& worst : {c.space, c.back_side}) {
+    add("losses", {worst.mean, worst.max, number(worst.worst_patch), number(worst.count)});
+    for (const radiosity::WorstFraction::Patch& one : worst.listed())
+      add("loss", {number(one.patch), one.fraction});
+  }
   add("setting", {number(static_cast<std::uint64_t>(c.setting.rung)), number(c.setting.resolution),
                   c.setting.target});
   add("errors", {number(c.has_form_factor_error), c.form_factor_error,

@@ -1,5 +1,7 @@
 #include "radiosity/output/look_picture.h"
 
+#include "radiosity/hemicube/five_views.h"
+#include "radiosity/output/hemicube_losses.h"
 #include "radiosity/output/unfolded_hemicube.h"
 #include "tests/unit/output_support.h"
 
@@ -102,11 +104,44 @@ TEST(LookPicture, ShowsItemsDepthAndWeights) {
     return std::array<std::uint8_t, 3>{at[0], at[1], at[2]};
   };
   EXPECT_EQ(color(0, 512, 512), item_color(1));
-  EXPECT_EQ(color(0, 512, 270), (std::array<std::uint8_t, 3>{0, 0, 0})) << "space";
+  EXPECT_EQ(color(0, 512, 270), kSpaceColor);
+  EXPECT_EQ(color(1, 512, 270), (std::array<std::uint8_t, 3>{0, 0, 0})) << "space is far";
+  std::map<std::array<std::uint8_t, 3>, int> colors;
+  for (std::uint32_t row = 0; row < 1024; ++row)
+    for (std::uint32_t column = 0; column < 1024; ++column)
+      ++colors[color(0, column, row)];
+  const int backs = pixels[2 | raster::kBackFacing];
+  EXPECT_NEAR(colors[kBackColor], backs / 2, backs / 10) << "every other stripe";
+  EXPECT_NEAR(colors[item_color(2)], backs / 2, backs / 10);
   EXPECT_GT(color(1, 512, 512)[0], 200) << "the nearest is white";
   EXPECT_GT(color(2, 512, 512)[0], 250) << "the heaviest is white";
   EXPECT_LT(color(2, 512, 0)[0], color(2, 512, 512)[0]);
   EXPECT_EQ(color(0, 0, 0), (std::array<std::uint8_t, 3>{40, 40, 40})) << "outside the cross";
+}
+
+// Catches: directions in the axes of the hemicube, a back counted as a front.
+TEST(HemicubeLosses, SayWhereLightIsLost) {
+  SceneBuilder builder(1); // a closed box without its wall at x = 1, whose ceiling is inside out
+  const std::uint32_t grey = builder.material("grey", 0.5, 0);
+  builder.face(grey, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  builder.face(grey, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}});
+  builder.face(grey, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}});
+  builder.face(grey, {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}});
+  builder.face(grey, {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}});
+  const PatchSet patches = patches_of(builder.finish());
+  HemicubeImage hemicube;
+  require(render_hemicube(patches, 0, 256, raster::best_kernels(), &hemicube));
+  DeltaFormFactors weights;
+  require(weights.init(256));
+  HemicubeLosses losses;
+  require(find_losses(hemicube, weights, hemicube_view(patches, 0), &losses));
+  const double ceiling = 0.239456; // from the centre; each wall has a fourth of the rest
+  EXPECT_NEAR(losses.space, (1 - ceiling) / 4, 2e-3);
+  ASSERT_EQ(losses.backs.size(), 1u);
+  EXPECT_EQ(losses.backs[0].patch, 1u);
+  EXPECT_NEAR(losses.backs[0].fraction, ceiling, 2e-3);
+  EXPECT_NEAR(glm::length(losses.space_towards), 1, 1e-12);
+  EXPECT_GT(losses.space_towards.x, 0.4);
 }
 
 TEST(LookPicture, APatchThatDoesNotExistIsRefused) {

@@ -53,6 +53,20 @@ TEST_F(ReportTest, ResultHoldsWhatWasComputed) {
   EXPECT_EQ(result["options"]["resolution"], 256);
 }
 
+// Catches: a list without end, or one that names patches that see nothing.
+TEST_F(ReportTest, LossesNameTheWorstPatches) {
+  certificate.space.max = certificate.space.worst[0].fraction = 0.5;
+  certificate.space.worst_patch = certificate.space.worst[0].patch = 7;
+  certificate.space.count = 1;
+  certificate.back_side.count = 1000;
+  const Json result = report()["result"];
+  EXPECT_EQ(result["space"]["count"], 1);
+  EXPECT_EQ(result["space"]["worst"], (Json{{{"patch", 7}, {"fraction", 0.5}}}));
+  EXPECT_EQ(result["back_side"]["worst"].size(), 10u);
+  certificate.space.count = 0;
+  EXPECT_FALSE(report()["result"]["space"].contains("worst"));
+}
+
 TEST_F(ReportTest, WhatIsNotKnownIsAbsent) {
   certificate.estimated_error = std::numeric_limits<double>::infinity();
   certificate.residual = std::numeric_limits<double>::quiet_NaN();
