@@ -22,7 +22,7 @@ constexpr MeshOption kOptions[] = {
        options->limits.max_emitters = parse_count(text, 0);
        options->limit_given = "--max-emitters";
      }},
-    {"--snap", "M", "discontinuity: closer lines are one, metres [a 32nd of a mean patch]",
+    {"--snap", "M", "discontinuity: closer lines are one, metres [a 32nd of a usual patch]",
      [](std::string_view text, MeshOptions* options) {
        options->limits.snap = parse_real_number(text, 0, kInfinity);
        options->limit_given = "--snap";

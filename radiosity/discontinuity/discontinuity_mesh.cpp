@@ -64,11 +64,11 @@ Status DiscontinuityMesher::check() {
     return Status::error(StatusCode::kInvalidArgument, "at most ", limits.max_elements,
                          " elements are allowed, but there are ", patches,
                          " patches to begin with: allow more, or give a coarser mesh");
-  double area = 0;
-  for (const double a : patches_.area)
-    area += a;
-  if (limits.snap == 0)
-    limits.snap = std::sqrt(area / static_cast<double>(patches)) / kSnapPart;
+  if (limits.snap == 0) { // a mean would be that of one large floor under many small things
+    std::vector<double> areas(patches_.area.begin(), patches_.area.end());
+    std::sort(areas.begin(), areas.end());
+    limits.snap = std::sqrt(areas[areas.size() / 2]) / kSnapPart;
+  }
   return {};
 }
 

@@ -11,7 +11,7 @@ namespace hemicube::radiosity {
 struct DiscontinuityLimits {
   std::uint64_t max_emitters = 4; ///< whose shadows are followed, the brightest first
   double snap = 0; ///< metres: closer lines are one, as are corners that lie closer to a line; 0 =
-                   ///< chosen: a 32nd of the root of the mean area of the patches
+                   ///< chosen: a 32nd of the root of the median area of the patches
   std::uint64_t max_elements = 0; ///< no more are made, backs not counted; 0 = chosen: 20000, or 4
                                   ///< times the patches if that is more
   std::uint64_t max_wedges = 50000; ///< no more are followed, which takes some seconds

@@ -1,6 +1,7 @@
 // Lines 31 to 42 of README.md: the linear system, and meshes.
 
 #include "radiosity/adaptive.h"
+#include "radiosity/discontinuity/discontinuity_mesh.h"
 #include "radiosity/mesh/build_patches.h"
 #include "radiosity/mesh/openmesh_subdivide.h"
 #include "radiosity/output/vertex_radiosity.h"
@@ -8,6 +9,8 @@
 #include "tests/analytic/adaptive_support.h"
 #include "tests/hard_cases/hard_case.h"
 #include "tests/support/one_point.h"
+#include "tests/support/shadow_rooms.h"
+#include "tests/support/sound_mesh.h"
 
 #include <array>
 
@@ -281,6 +284,62 @@ TEST(HardCase, L39_AdaptiveSubdivisionEnds) {
 }
 
 // Catches: light that crosses the edge of a room; 0/0 at vertices without a lit neighbour.
+/// A table of four legs on a floor of one face, in the middle under a lamp.
+Scene table_under_lamp(double scale) {
+  SceneBuilder builder(1);
+  const std::uint32_t grey = builder.material("grey", 0.5, 0);
+  const std::uint32_t lamp = builder.material("lamp", 0, 100);
+  builder.face(grey, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+  builder.face(lamp, {{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}, {0.5, -0.5, 2}});
+  for (const double x : {-0.7, 0.6})
+    for (const double y : {-0.5, 0.4})
+      add_box(&builder, grey, {x, y, 0}, {Vec3(0.1, 0, 0), Vec3(0, 0.1, 0), Vec3(0, 0, 0.7)});
+  add_box(&builder, grey, {-0.75, -0.55, 0.7},
+          {Vec3(1.5, 0, 0), Vec3(0, 1.1, 0), Vec3(0, 0, 0.05)});
+  return scaled(builder.finish(), scale);
+}
+
+// Catches: contacts beside the edges of what touches; snapping that depends on the unit; cuts
+// without length, and many through one point.
+TEST(HardCase, L40_DiscontinuityMeshing) {
+  PatchSet unscaled;
+  double worst = 0;
+  for (const double scale : {1.0, 0x1p-20, 0x1p20, 1e-6, 1e6}) {
+    const Scene scene = table_under_lamp(scale);
+    const PatchSet patches = fronts_of(scene);
+    PatchSet elements;
+    std::vector<radiosity::DiscontinuityLine> lines;
+    radiosity::DiscontinuityReport report;
+    require(radiosity::cut_discontinuities(scene, patches, {}, &elements, &lines, &report));
+    expect_sound(patches, elements);
+    double outline = 0, feet = 0;
+    for (std::uint32_t e = 0; e < elements.patch_count() && elements.parent[e] == 0; ++e) {
+      const Vec3 centre = elements.centre[e] / scale;
+      if (std::fabs(std::fabs(centre.x) - 0.65) < 0.05 &&
+          std::fabs(std::fabs(centre.y) - 0.45) < 0.05)
+        feet += elements.area[e] / (scale * scale);
+      const auto corners = elements.corners_of(e);
+      for (std::size_t k = 0; k < corners.size(); ++k)
+        if (elements.light_across(elements.corner_offsets[e] + k) == radiosity::EdgeLight::kJumps)
+          outline += glm::length(elements.vertices[corners[(k + 1) % corners.size()]] -
+                                 elements.vertices[corners[k]]) /
+                     scale;
+    }
+    worst = std::max({worst, std::fabs(outline / (2 * 16 * 0.1) - 1), std::fabs(feet / 0.04 - 1)});
+    if (scale == 1) {
+      unscaled = std::move(elements);
+      continue;
+    }
+    ASSERT_EQ(elements.patch_count(), unscaled.patch_count()) << scale;
+    ASSERT_EQ(elements.corners.size(), unscaled.corners.size()) << scale;
+    for (std::size_t k = 0; k < elements.corners.size() && (scale == 0x1p-20 || scale == 0x1p20);
+         ++k)
+      ASSERT_EQ(elements.vertices[elements.corners[k]],
+                scale * unscaled.vertices[unscaled.corners[k]]);
+  }
+  expect_within("contacts, relative", worst, 1e-9);
+}
+
 TEST(HardCase, L41_DisplayValues) {
   const PatchSet patches = patches_of(furnace_cube(4, 0.5, 1));
   std::vector<double> radiosity;
