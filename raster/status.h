@@ -23,7 +23,8 @@ enum class StatusCode {
 };
 
 /// The outcome of a call: a code and, unless it is kOk, one line that says what is wrong, where,
-/// with the offending value, and what to do. Longer messages are cut at kCapacity - 1 bytes.
+/// with the offending value, and what to do. Longer messages are cut at kCapacity - 1 bytes. They
+/// quote files and file names: control bytes, which a terminal would obey, become '?'.
 class [[nodiscard]] Status {
 public:
   static constexpr std::size_t kCapacity = 512;
@@ -31,6 +32,8 @@ public:
   Status() noexcept { text_[0] = '\0'; }
   Status(const Status& other) noexcept { *this = other; }
   Status& operator=(const Status& other) noexcept {
+    if (this == &other)
+      return *this;
     code_ = other.code_;
     length_ = other.length_;
     std::memcpy(text_, other.text_, length_ + 1);
@@ -55,8 +58,8 @@ private:
   void append(std::string_view text) noexcept {
     const std::size_t room = kCapacity - 1 - length_;
     const std::size_t count = text.size() < room ? text.size() : room;
-    std::memcpy(text_ + length_, text.data(), count);
-    length_ += count;
+    for (const char c : text.substr(0, count))
+      text_[length_++] = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     text_[length_] = '\0';
   }
   void append(const char* text) noexcept { append(std::string_view(text)); }
@@ -77,7 +80,7 @@ private:
 template <typename T> class [[nodiscard]] Result {
 public:
   Result(T value) : value_(std::move(value)) {}
-  Result(Status status) : status_(status) {}
+  Result(const Status& status) : status_(status) {}
 
   bool ok() const noexcept { return status_.ok(); }
   const Status& status() const noexcept { return status_; }
@@ -94,6 +97,6 @@ private:
 /// Returns the status of an expression from the enclosing function unless it is ok.
 #define HC_TRY(expression)                                                                         \
   do {                                                                                             \
-    if (::hemicube::Status hc_try_status = (expression); !hc_try_status.ok())                      \
+    if (const ::hemicube::Status& hc_try_status = (expression); !hc_try_status.ok())               \
       return hc_try_status;                                                                        \
   } while (false)

@@ -113,10 +113,8 @@ Status check_is_text(std::string_view bytes, std::string_view path, std::string_
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongest))
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return result + (text.size() > kLongest ? "...'" : "'");
+  const bool is_long = text.size() > kLongest;
+  return "'" + std::string(text.substr(0, kLongest)) + (is_long ? "...'" : "'");
 }
 
 LineReader::LineReader(std::string_view text) : rest_(text) {

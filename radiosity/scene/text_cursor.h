@@ -31,7 +31,7 @@ Status error_at(std::string_view path, std::uint64_t line, const Parts&... parts
   return Status::error(StatusCode::kBadScene, path, ":", line, ": ", parts...);
 }
 
-/// Text from a file for use in a message: in quotes, control bytes replaced, cut when long.
+/// Text from a file for use in a message: in quotes, cut when long.
 std::string in_quotes(std::string_view text);
 
 /// Runs a reader whose library calls may throw, and turns what they throw into a Status.

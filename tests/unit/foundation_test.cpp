@@ -31,6 +31,12 @@ TEST(Status, LongMessagesAreCut) {
   EXPECT_EQ(Status::error(StatusCode::kIo, text).message().size(), Status::kCapacity - 1);
 }
 
+// Catches: files and file names that steer the terminal of whoever reads about them.
+TEST(Status, MessagesHoldNoControlBytes) {
+  EXPECT_EQ(Status::error(StatusCode::kIo, "a\x1b[2J\x7f", "b\n\t\xc3\xa4").message(),
+            "a?[2J?b??\xc3\xa4");
+}
+
 TEST(Buffer, OutOfMemoryIsAStatusAndKeepsTheContent) {
   Buffer<int> buffer;
   ASSERT_TRUE(buffer.push_back(42).ok());
