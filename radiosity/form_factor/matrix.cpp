@@ -24,6 +24,10 @@ double row_sum(const RowView& row) noexcept {
 
 void fit_scale(double share, RowView* row) noexcept {
   row->scale = 1;
+  if (!(share > 0)) {
+    row->columns = {};
+    row->values = {};
+  }
   const double sum = row_sum(*row);
   if (sum == 0)
     return;

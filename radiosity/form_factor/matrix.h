@@ -48,7 +48,8 @@ inline bool is_computed(const RowView& row) noexcept {
 double row_sum(const RowView& row) noexcept;
 
 /// Sets the scale of a row so that it sums to `share`, and never to more: a row above 1 would make
-/// light from nothing.
+/// light from nothing. Where space and back side leave nothing, or less by rounding, entries are
+/// below the rounding of 1 and are left out.
 void fit_scale(double share, RowView* row) noexcept;
 
 /// Hash of everything a row holds.

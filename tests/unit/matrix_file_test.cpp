@@ -129,6 +129,21 @@ protected:
 };
 
 // Catches: facts or shares that are not kept, a head that says something else than it was given.
+// Catches: form factors below 0, and a search for a scale that never ends, where rounding leaves a
+// row less than nothing beside space and back side.
+TEST(FitScale, RowsWithoutAShareHaveNoEntries) {
+  const std::uint32_t columns[] = {1, 2};
+  const float values[] = {1e-17f, 3e-18f};
+  for (const double share : {-1.9266563357968124e-17, 0.0}) {
+    radiosity::RowView row;
+    row.columns = columns;
+    row.values = values;
+    radiosity::fit_scale(share, &row);
+    EXPECT_EQ(row.columns.size() + row.values.size(), 0u);
+    EXPECT_EQ(radiosity::row_sum(row), 0.0);
+  }
+}
+
 TEST_F(MatrixFileTest, WhatIsWrittenIsReadBitForBit) {
   for (const std::uint64_t most : {RowStorage::kUnlimited, std::uint64_t{1}}) {
     FormFactorMatrix matrix;
