@@ -64,12 +64,13 @@ Vec3 horizon_crossing(const Vec3& a, double sa, const Vec3& b, double sb) {
   return a + (b - a) * (sa / (sa - sb));
 }
 
-/// Lambert's sum over the part of the polygon above the horizon. The horizon's own piece of the
-/// contour runs from where the polygon leaves to where it comes back.
+/// Lambert's sum over the part of the polygon above the horizon. From where the polygon leaves to
+/// where it comes back the horizon closes the contour: once, or, where the polygon lies in the
+/// horizon and rounding makes it leave, as often as it does.
 double contour_sum(const Vec3& eye, const Vec3& normal, std::span<const Vec3> corners) {
   ContourSum sum(normal);
-  bool left = false, entered = false;
-  Vec3 leaves(0, 0, 0), enters(0, 0, 0);
+  bool began_below = false, left = false, entered = false;
+  Vec3 first_enters(0, 0, 0), leaves(0, 0, 0), enters(0, 0, 0);
   Vec3 a = corners.back() - eye;
   double sa = glm::dot(normal, a);
   for (const Vec3& corner : corners) {
@@ -78,19 +79,25 @@ double contour_sum(const Vec3& eye, const Vec3& normal, std::span<const Vec3> co
     if (sa >= 0 && sb >= 0) {
       sum.add(a, b);
     } else if (sa >= 0) {
+      if (left && entered)
+        sum.add(leaves, enters);
       leaves = horizon_crossing(a, sa, b, sb);
       left = true;
       sum.add(a, leaves);
     } else if (sb >= 0) {
       enters = horizon_crossing(b, sb, a, sa);
-      entered = true;
       sum.add(enters, b);
+      entered = left;
+      if (!left) {
+        began_below = true;
+        first_enters = enters;
+      }
     }
     a = b;
     sa = sb;
   }
-  if (left && entered)
-    sum.add(leaves, enters);
+  if (left && (began_below || entered))
+    sum.add(leaves, began_below ? first_enters : enters);
   return sum.value();
 }
 

@@ -59,25 +59,6 @@ struct RandomPair {
   }
 };
 
-/// The two parts of a convex polygon on either side of the line through two of its edges' points.
-std::array<std::vector<Vec3>, 2> halves(const std::vector<Vec3>& polygon, double at) {
-  const std::size_t other = polygon.size() / 2;
-  const Vec3 a = polygon[0] + (polygon[1] - polygon[0]) * at;
-  const Vec3& next = polygon[other + 1 == polygon.size() ? 0 : other + 1];
-  const Vec3 b = polygon[other] + (next - polygon[other]) * at;
-  std::array<std::vector<Vec3>, 2> parts;
-  parts[0] = {a};
-  parts[0].insert(parts[0].end(), polygon.begin() + 1,
-                  polygon.begin() + static_cast<std::ptrdiff_t>(other) + 1);
-  parts[0].push_back(b);
-  parts[1] = {b};
-  parts[1].insert(parts[1].end(), polygon.begin() + static_cast<std::ptrdiff_t>(other) + 1,
-                  polygon.end());
-  parts[1].push_back(polygon[0]);
-  parts[1].push_back(a);
-  return parts;
-}
-
 /// Sum over 4 x 4 parts of both polygons at the tightest error.
 AreaIntegral by_parts(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
   AreaIntegral sum;
@@ -149,6 +130,19 @@ TEST(PointToPolygon, TheHorizonCutsPolygons) {
   EXPECT_NEAR(point_to_polygon(Vec3(0, 0, 0), up, wall), 0.5, 1e-6);
   const std::vector<Vec3> below = {{1, -1, -2}, {1, -1, -1}, {1, 1, -1}, {1, 1, -2}};
   EXPECT_EQ(point_to_polygon(Vec3(0, 0, 0), up, below), 0.0);
+}
+
+// Catches: a contour that rounding lets leave the horizon several times and that is closed once.
+TEST(PointToPolygon, PolygonsInTheHorizonGiveNothing) {
+  Random random(12);
+  for (int i = 0; i < 2000; ++i) {
+    const auto frame = random_frame(random);
+    std::vector<Vec3> polygon;
+    for (const Vec3& corner : random_ngon(random, 12, {0, 0, 0}, 1)) // in the plane of x and y
+      polygon.push_back(frame[0] * (corner.x + 3) + frame[1] * corner.y);
+    const double value = point_to_polygon(Vec3(0, 0, 0), frame[2], polygon);
+    EXPECT_NEAR(value, 0, 1e-15) << i;
+  }
 }
 
 // Catches: everything that one shape, distance or angle can have wrong, see the tags.

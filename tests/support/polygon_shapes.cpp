@@ -50,4 +50,22 @@ std::vector<Vec3> card(double x0, double x1, double y0, double y1, double z, int
   return polygon;
 }
 
+std::array<std::vector<Vec3>, 2> halves(const std::vector<Vec3>& polygon, double at) {
+  const std::size_t other = polygon.size() / 2;
+  const Vec3 a = polygon[0] + (polygon[1] - polygon[0]) * at;
+  const Vec3& next = polygon[other + 1 == polygon.size() ? 0 : other + 1];
+  const Vec3 b = polygon[other] + (next - polygon[other]) * at;
+  std::array<std::vector<Vec3>, 2> parts;
+  parts[0] = {a};
+  parts[0].insert(parts[0].end(), polygon.begin() + 1,
+                  polygon.begin() + static_cast<std::ptrdiff_t>(other) + 1);
+  parts[0].push_back(b);
+  parts[1] = {b};
+  parts[1].insert(parts[1].end(), polygon.begin() + static_cast<std::ptrdiff_t>(other) + 1,
+                  polygon.end());
+  parts[1].push_back(polygon[0]);
+  parts[1].push_back(a);
+  return parts;
+}
+
 } // namespace hemicube::test

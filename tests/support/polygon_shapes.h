@@ -2,6 +2,7 @@
 
 #include "tests/support/scenes_shared.h"
 
+#include <array>
 #include <vector>
 
 /// Convex polygons, as corners.
@@ -21,5 +22,8 @@ std::vector<Vec3> axis_rectangle(Random& random, int axis, const Vec3& corner, d
 /// The rectangle [x0, x1] x [y0, y1] at depth z, seen from its front from below, its outline cut
 /// into `corners` >= 4 corners.
 std::vector<Vec3> card(double x0, double x1, double y0, double y1, double z, int corners = 4);
+
+/// The two parts of a convex polygon on either side of the line through two of its edges' points.
+std::array<std::vector<Vec3>, 2> halves(const std::vector<Vec3>& polygon, double at);
 
 } // namespace hemicube::test
