@@ -20,6 +20,10 @@ constexpr int kMostRounds = 12;
 /// use.
 constexpr std::uint64_t kPatience = 16;
 constexpr double kLeastGain = 0.81;
+/// A direction that changes row sums by no more than this, relative to its multipliers (D^-1 (D +
+/// W), whose eigenvalues are 0 .. 2), changes them by rounding: to follow it leads beyond all
+/// numbers.
+constexpr double kNoEffect = 0x1p-40;
 /// What one round may do to an entry: bounds that are not met unless a pattern does not close.
 constexpr double kLeastFactor = 0.5, kLargestFactor = 2;
 
@@ -169,7 +173,7 @@ Status Balancer::find_multipliers(double residual) {
     for (std::size_t i = 0; i < z_.size(); ++i)
       if (weight_sum_[i] > 0)
         square += direction_product_[i] * direction_product_[i] / weight_sum_[i];
-    if (!(square > 0))
+    if (!(square > kNoEffect * curvature))
       return {};
     const double length = curvature / square;
     for (std::size_t i = 0; i < z_.size(); ++i) {

@@ -114,6 +114,24 @@ void expect_closed(const FormFactorMatrix& matrix) {
   }
 }
 
+// Catches: multipliers without end for what no multiplier changes: of two patches that see each
+// other alone, the difference of their sums.
+TEST(Balance, PairsThatOneOfThemMissesStayNumbers) {
+  std::mt19937 random(5);
+  const auto uniform = [&] { return (static_cast<double>(random() >> 8) + 0.5) / 16777216.0; };
+  for (int round = 0; round < 3000; ++round) {
+    Patches pair(2);
+    pair.area = {uniform(), uniform()};
+    pair.f[0][1] = uniform() * std::min(1.0, pair.area[1] / pair.area[0]);
+    pair.f[1][0] = round % 2 == 0 ? 0 : pair.f[0][1] * pair.area[0] / pair.area[1] * uniform();
+    Outcome got;
+    run(pair, &got);
+    EXPECT_TRUE(std::isfinite(got.report.rms_change)) << round;
+    if (got.status.ok())
+      expect_closed(got.matrix);
+  }
+}
+
 struct Kind {
   std::size_t n;
   double density;
