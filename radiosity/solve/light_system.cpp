@@ -14,6 +14,8 @@ namespace {
 
 /// A residual of a few units in the last place: rounding allows no smaller one.
 constexpr double kRoundingFloor = 0x1p-48;
+/// What is reflected is rounded by as much: a smaller residual is none that is known.
+constexpr double kUnknownResidual = 0x1p-52;
 
 /// Calls visit(row number, row, worker) for all rows of a matrix, in parallel.
 template <typename Visit>
@@ -140,10 +142,11 @@ Status LightSystem::measure(std::span<const double> x, std::span<const double> g
     if (!std::isfinite(total) || !std::isfinite(largest))
       return Status::error(StatusCode::kBadScene, "the light is too bright to be computed: scale ",
                            "the exitances down");
-    if (largest == 0)
+    if (brightest == 0)
       continue;
     const double residual = largest / brightest;
-    const double error = contraction_[b] < 1 ? residual / (1 - contraction_[b])
+    const double unknown = kUnknownResidual * contraction_[b];
+    const double error = contraction_[b] < 1 ? std::max(residual, unknown) / (1 - contraction_[b])
                                              : std::numeric_limits<double>::infinity();
     convergence->residual = std::max(convergence->residual, residual);
     convergence->estimated_error = std::max(convergence->estimated_error, error);

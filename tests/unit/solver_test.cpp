@@ -107,6 +107,29 @@ TEST(GaussSeidel, ReportsTheErrorItHas) {
   EXPECT_LE(got.convergence.estimated_error, 1e-3);
 }
 
+// Catches: a residual that is 0 because the last bit of what is reflected is not known, and an
+// error of 0 although 1 / (1 - rho) makes that bit 1e-7 of the light.
+TEST(GaussSeidel, ReportsWhatRoundingHides) {
+  for (std::size_t n = 2; n < 40; ++n) {
+    const double rho = 1 - 0x1p-30;
+    const System s = equal_room(n, rho, 1);
+    FormFactorMatrix matrix;
+    s.fill(&matrix);
+    Outcome got;
+    solve(s, &got, 1e-7);
+    ASSERT_TRUE(got.status.ok()) << got.status.message();
+    // All entries are f: the sum of B is 1 / (1 - (n - 1) rho f).
+    const RowView row = matrix.row(0);
+    const long double f = static_cast<long double>(row.scale) * row.values[0];
+    const long double sum = 1 / (1 - static_cast<long double>(n - 1) * rho * f);
+    for (std::size_t i = 0; i < n; ++i) {
+      const long double b = ((i == 0 ? 1 : 0) + rho * f * sum) / (1 + rho * f);
+      EXPECT_LE(std::fabs(got.b[i] - b), got.convergence.estimated_error * got.b[0])
+          << n << " patches";
+    }
+  }
+}
+
 TEST(GaussSeidel, NearlyWhiteRoomNeedsFewSweeps) {
   // Plain sweeps need of the order of 1e7 here.
   const System s = equal_room(24, 0.999999, 1);
