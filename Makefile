@@ -3,7 +3,6 @@
 BUILD ?= build
 TYPE ?= Release
 T ?= .
-FUZZ_SECONDS ?= 60
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
@@ -82,15 +81,19 @@ sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitize
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
 	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
-fuzz: deps ## install clang, build the fuzzer of the rasterizer, run it FUZZ_SECONDS (60)
+FUZZ_TARGETS ?= $(notdir $(wildcard tests/fuzz/corpus/*))
+fuzz: deps ## install clang, feed each fuzz target for T seconds (60) under sanitizers (FUZZ_TARGETS=name... picks some)
 	$(call install,$(FUZZ_PACKAGES))
 	@cmake -S . -B $(BUILD)/fuzz -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release \
 	  -DHEMICUBE_TESTS=ON -DHEMICUBE_FUZZ=ON \
 	  -DCMAKE_CXX_FLAGS="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined \
 	    -fsanitize-coverage-ignorelist=$(CURDIR)/tests/fuzz/coverage_ignore.txt -fno-omit-frame-pointer -g1"
-	@cmake --build $(BUILD)/fuzz --parallel $(JOBS) --target raster_fuzz
-	@mkdir -p $(BUILD)/fuzz/corpus
-	@cd $(BUILD)/fuzz && ./raster_fuzz -max_len=2048 -len_control=0 -max_total_time=$(FUZZ_SECONDS) corpus
+	@cmake --build $(BUILD)/fuzz --parallel $(JOBS) --target hemicube_fuzz
+	@set -e; for target in $(FUZZ_TARGETS); do echo "== $$target"; \
+	  mkdir -p $(BUILD)/fuzz/corpus/$$target; \
+	  HEMICUBE_FUZZ_TARGET=$$target $(BUILD)/fuzz/hemicube_fuzz -max_total_time=$(if $(filter .,$(T)),60,$(T)) \
+	    -dict=tests/fuzz/words.dict -max_len=4096 -len_control=20 -timeout=30 -verbosity=0 -print_final_stats=1 \
+	    -artifact_prefix=$(BUILD)/fuzz/$$target- $(BUILD)/fuzz/corpus/$$target tests/fuzz/corpus/$$target; done
 
 core: ## the embeddable core alone: a C++20 compiler and GLM
 	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON

@@ -20,32 +20,6 @@ using raster::Item;
 using raster::kNoItem;
 using raster::View;
 
-/// Compares a drawn face with the oracle where that is certain. @return undecided pixels
-int expect_as_naive(const DrawnFace& drawn, const NaiveImage& naive, const std::string& where) {
-  int undecided = 0, wrong = 0;
-  for (int y = 0; y < naive.height; ++y)
-    for (int x = 0; x < naive.width; ++x) {
-      const NaivePixel& expected = naive.at(x, y);
-      if (!expected.decided()) {
-        ++undecided;
-        continue;
-      }
-      const Item item = drawn.items[drawn.index(x, y)];
-      const auto depth = static_cast<long double>(drawn.depths[drawn.index(x, y)]);
-      const long double error = std::fabs(depth - expected.inverse_depth);
-      if (item == expected.item && error <= kDepthError * expected.depth_scale)
-        continue;
-      if (++wrong <= 5)
-        ADD_FAILURE() << where << ", pixel (" << x << ", " << y << "): item " << std::hex << item
-                      << ", expected " << expected.item << std::dec << "; 1/z " << depth
-                      << ", expected " << static_cast<double>(expected.inverse_depth)
-                      << "; edge margin " << static_cast<double>(expected.edge_margin)
-                      << " px, depth gap " << static_cast<double>(expected.depth_gap);
-    }
-  EXPECT_EQ(wrong, 0) << where;
-  return undecided;
-}
-
 class RasterCases : public testing::TestWithParam<RasterCase (*)()> {};
 
 // Catches: any wrong coverage or depth decision, on any face, at any scale.
@@ -62,10 +36,10 @@ TEST_P(RasterCases, DrawsWhatTheNaiveOracleSees) {
         for (const Face face : kFaces) {
           const auto grid = raster::hemicube_grid(face, resolution);
           const NaiveImage naive = naive_image(scene.polygons.view(), scene.views[v], face, grid);
-          undecided += expect_as_naive(drawer.draw(face, grid), naive,
-                                       scene.name + ", " + isa + ", view " + std::to_string(v) +
-                                           ", resolution " + std::to_string(resolution) +
-                                           ", face " + std::to_string(static_cast<int>(face)));
+          undecided += undecided_count(naive);
+          EXPECT_EQ(difference(naive, drawer.draw(face, grid)), "")
+              << scene.name << ", " << isa << ", view " << v << ", resolution " << resolution
+              << ", face " << static_cast<int>(face);
           pixels += grid.width * grid.height;
         }
       }

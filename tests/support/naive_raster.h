@@ -3,7 +3,9 @@
 #include "raster/face_view.h"
 #include "raster/polygons.h"
 #include "raster/types.h"
+#include "tests/support/drawn_face.h"
 
+#include <string>
 #include <vector>
 
 /// The oracle of the rasterizer: what a pixel sees, straight from the definition, in long double,
@@ -20,17 +22,17 @@ inline constexpr long double kDepthError = 2e-6L;
 struct NaivePixel {
   raster::Item item = raster::kNoItem;
   long double inverse_depth = 0; ///< 1/z of the item, z measured along the face's forward axis
-  /// Distance in pixels of the pixel centre from the nearest edge that could change the answer.
+  /// Distance in pixels of the pixel centre from the nearest edge that could change the answer,
+  /// less what the rounding of corners to double may move that edge by.
   long double edge_margin = 0;
   /// Smallest difference in 1/z to any other polygon that covers the pixel and to the background,
-  /// as a fraction of the largest 1/z the planes reach on the face.
+  /// as a fraction of the largest 1/z the planes reach on the face; less what rounding may move the
+  /// planes by.
   long double depth_gap = 0;
-  /// The largest 1/z the plane of the item reaches on the face; the error of a depth scales with
-  /// it.
-  long double depth_scale = 0;
+  long double depth_error = 0; ///< how far the drawn 1/z of the item may be off
 
   /// False where rounding may decide otherwise: the centre lies on an edge, or two surfaces meet
-  /// there.
+  /// there, or one that may be seen edge-on, or too near or too far for a float.
   bool decided() const { return edge_margin > 1e-6L && depth_gap > kDepthError; }
 };
 
@@ -48,5 +50,11 @@ struct NaiveImage {
 /// on the faces of a hemicube, whose pixels all look above it.
 NaiveImage naive_image(const raster::Polygons& polygons, const raster::View& view,
                        raster::Face face, const raster::PixelGrid& grid);
+
+int undecided_count(const NaiveImage& image);
+
+/// Where a drawn face is not what the oracle sees, as far as that is certain: the first such pixel,
+/// and how many there are; empty if there is none.
+std::string difference(const NaiveImage& naive, const DrawnFace& drawn);
 
 } // namespace hemicube::test

@@ -1,14 +1,12 @@
 #pragma once
 
 #include "radiosity/scene/read_scene.h"
+#include "tests/support/scene_checks.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,52 +66,9 @@ template <typename T> std::vector<T> values_of(const Buffer<T>& buffer) {
   return {buffer.begin(), buffer.end()};
 }
 
-inline void expect_unique(const NameTable& table) {
-  const std::vector<std::string> names = names_of(table);
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
-}
-
 /// All that the comment in scene.h promises.
 inline void expect_scene_is_sound(const Scene& scene) {
-  const std::size_t bands = scene.band_count(), materials = scene.materials.size();
-  const std::size_t faces = scene.face_count();
-  ASSERT_GE(bands, 1u);
-  ASSERT_GE(faces, 1u);
-  expect_unique(scene.bands);
-  expect_unique(scene.materials);
-  expect_unique(scene.groups);
-  ASSERT_EQ(scene.reflectance.size(), materials * bands);
-  ASSERT_EQ(scene.exitance.size(), materials * bands);
-  ASSERT_EQ(scene.two_sided.size(), materials);
-  ASSERT_EQ(scene.space_exitance.size(), bands);
-  for (const double rho : scene.reflectance)
-    EXPECT_TRUE(rho >= 0 && rho <= 1) << rho;
-  for (const double e : scene.exitance)
-    EXPECT_TRUE(e >= 0 && std::isfinite(e)) << e;
-  for (const double e : scene.space_exitance)
-    EXPECT_TRUE(e >= 0 && std::isfinite(e)) << e;
-  for (const std::uint8_t two_sided : scene.two_sided)
-    EXPECT_LE(two_sided, 1);
-  for (const Vec3& v : scene.vertices)
-    EXPECT_TRUE(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
-  EXPECT_EQ(scene.corner_offsets[0], 0u);
-  EXPECT_EQ(scene.corner_offsets[faces], scene.corners.size());
-  for (std::size_t f = 0; f < faces; ++f)
-    EXPECT_GE(scene.corner_offsets[f + 1], scene.corner_offsets[f] + 3);
-  for (const std::uint32_t corner : scene.corners)
-    EXPECT_LT(corner, scene.vertices.size());
-  ASSERT_EQ(scene.face_material.size(), faces);
-  ASSERT_EQ(scene.face_group.size(), faces);
-  std::set<std::uint32_t> used;
-  for (const std::uint32_t material : scene.face_material)
-    used.insert(material);
-  EXPECT_EQ(used.size(), materials) << "a material that no face uses";
-  EXPECT_LT(*used.rbegin(), materials);
-  for (const std::uint32_t group : scene.face_group)
-    EXPECT_LT(group, scene.groups.size());
-  ASSERT_TRUE(scene.face_max_edge.empty() || scene.face_max_edge.size() == faces);
-  for (const double edge : scene.face_max_edge)
-    EXPECT_TRUE(edge >= 0 && std::isfinite(edge));
+  EXPECT_EQ(hemicube::test::scene_problem(scene), "");
 }
 
 } // namespace hemicube::radiosity::test

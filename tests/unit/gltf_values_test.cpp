@@ -1,4 +1,4 @@
-// glTF files damaged at random, and values of their JSON exchanged: a clear error or a sound scene.
+// glTF files with any value of their JSON exchanged: a clear error or a sound scene.
 
 #include "tests/support/gltf_files.h"
 #include "tests/support/scene_files.h"
@@ -6,7 +6,7 @@
 namespace hemicube::radiosity::test {
 namespace {
 
-class GltfMutation : public SceneFiles {
+class GltfValues : public SceneFiles {
 protected:
   void expect_refused_or_sound(const std::string& name, const std::string& bytes) {
     SCOPED_TRACE(bytes);
@@ -40,33 +40,8 @@ Json full_gltf() {
   return json;
 }
 
-TEST_F(GltfMutation, MutatedGlbFilesAreRefusedOrSound) {
-  const std::vector<std::string> words = {"null",
-                                          "-1",
-                                          "1e999",
-                                          "4294967296",
-                                          "\"",
-                                          "[",
-                                          "]",
-                                          "{",
-                                          "}",
-                                          ",",
-                                          "0",
-                                          "99",
-                                          "true",
-                                          "\xff\xff\xff\xff",
-                                          std::string(4, '\0'),
-                                          "BIN",
-                                          "0.5"};
-  std::mt19937 random(20240302);
-  const std::string file = glb(full_gltf(), square_bytes());
-  for (int round = 0; round < 700 && !HasFailure(); ++round)
-    expect_refused_or_sound("a.glb", mutated(file, words, random));
-  EXPECT_GT(refused_, 200);
-}
-
 // Catches: a value of the wrong kind or out of range that is used all the same.
-TEST_F(GltfMutation, AnyValueExchangedIsRefusedOrSound) {
+TEST_F(GltfValues, AnyValueExchangedIsRefusedOrSound) {
   const Json values[] = {nullptr,
                          -1,
                          0,

@@ -1,5 +1,8 @@
-#include "tests/fuzz/raster_fuzz_case.h"
+#include "tests/fuzz/raster_case.h"
 
+#include "tests/fuzz/byte_reader.h"
+#include "tests/fuzz/target.h"
+#include "tests/support/naive_raster.h"
 #include "tests/support/polygon_shapes.h"
 
 #include <algorithm>
@@ -12,46 +15,6 @@ constexpr std::uint32_t kMostPolygons = 64;
 
 /// Polygons of a case that is compared with its polygons drawn alone.
 constexpr std::uint32_t kMostAlone = 6;
-
-/// Takes bytes one after the other; 0 beyond the end.
-class ByteReader {
-public:
-  explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  bool at_end() const { return bytes_.empty(); }
-
-  std::uint32_t byte() {
-    if (bytes_.empty())
-      return 0;
-    const std::uint32_t value = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return value;
-  }
-  std::uint32_t below(std::uint32_t count) { return byte() % count; }
-
-  /// A multiple of 1/64 in [-2, 2): coordinates that often agree.
-  double coarse() { return (static_cast<double>(byte()) - 128) / 64; }
-  /// 16 bits in [-2, 2).
-  double fine() {
-    const double high = coarse();
-    return high + static_cast<double>(byte()) / 0x1p14;
-  }
-  /// A power of two between 1 and 2^-31, or 0.
-  double tiny() {
-    const std::uint32_t power = below(33);
-    return power == 32 ? 0 : std::ldexp(1.0, -static_cast<int>(power));
-  }
-
-  Vec3 point() {
-    const bool is_coarse = below(3) == 0;
-    const auto number = [&] { return is_coarse ? coarse() : fine(); };
-    const double x = number(), y = number(), z = number();
-    return {x, y, z};
-  }
-
-private:
-  std::span<const std::uint8_t> bytes_;
-};
 
 /// Builds polygons in the axes of the view, its eye at 0, its size around 1; then moves them.
 class Decoder {
@@ -237,6 +200,31 @@ RasterFuzzCase decode_raster_case(std::span<const std::uint8_t> bytes) {
   return Decoder(bytes).decode();
 }
 
+/// Compares what was drawn with what the naive oracle sees, where that is certain.
+static std::string naive_problem(const RasterFuzzCase& fuzz, const std::vector<DrawnFace>& drawn) {
+  const raster::View& view = fuzz.look.view;
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    const Drawing& drawing = fuzz.look.drawings[k];
+    const std::string what =
+        difference(naive_image(fuzz.polygons.view(), view, drawing.face, drawing.grid), drawn[k]);
+    if (!what.empty())
+      return "naive, face " + std::to_string(static_cast<int>(drawing.face)) + ": " + what;
+  }
+  return "";
+}
+
+/// What the oracle knows of: a receiver that is left out with its copies it does not, nor a horizon
+/// that pixels look below.
+static bool is_for_the_oracle(const RasterFuzzCase& fuzz) {
+  std::size_t pixels = 0;
+  for (const Drawing& drawing : fuzz.look.drawings)
+    pixels += static_cast<std::size_t>(drawing.grid.width) *
+              static_cast<std::size_t>(drawing.grid.height);
+  const bool is_hemicube = fuzz.look.drawings.size() == raster::kFaceCount;
+  return pixels <= 4096 && fuzz.look.view.skip >= fuzz.polygons.count() &&
+         (is_hemicube || !fuzz.look.view.above_horizon);
+}
+
 std::string check_raster_case(const RasterFuzzCase& fuzz) {
   const auto draw = [&](const std::string& isa, raster::Culling culling) {
     Drawer drawer(fuzz.polygons.view(), *raster::kernels_by_name(isa), culling);
@@ -251,7 +239,14 @@ std::string check_raster_case(const RasterFuzzCase& fuzz) {
   if (fuzz.polygons.count() > kMostAlone)
     return "";
   const std::string what = difference(fuzz.look, composed_look(fuzz.polygons, fuzz.look), expected);
-  return what.empty() ? "" : "polygons drawn alone: " + what;
+  if (!what.empty())
+    return "polygons drawn alone: " + what;
+  return is_for_the_oracle(fuzz) ? naive_problem(fuzz, expected) : "";
+}
+
+Verdict judge_raster(Bytes bytes) {
+  const RasterFuzzCase fuzz = decode_raster_case(bytes);
+  return {check_raster_case(fuzz), fuzz.polygons.count() > 0};
 }
 
 } // namespace hemicube::test
