@@ -10,6 +10,8 @@ BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio
 TEST_PACKAGES := libgtest-dev libtinygltf-dev
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
+LINT_PACKAGES := clang-tidy-14 cppcheck
+COVERAGE_PACKAGES := gcovr
 BENCH_PACKAGES := libbenchmark-dev
 PLOT_PACKAGES := gnuplot-nox
 PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri $(PLOT_PACKAGES)
@@ -29,7 +31,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize fuzz core bench speed solvers refinement growth peers golden check-glb clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core bench speed solvers refinement growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -80,6 +82,38 @@ sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitize
 	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1"
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
 	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+
+# Where workers could disturb each other.
+TSAN_TESTS := balance_test form_factor_property_test golden_test kept_rows_test ladder_property_test \
+  other_solvers_test row_store_test shooting_test solver_test thread_pool_test
+tsan: deps ## the tests with several workers, and the golden ones, under ThreadSanitizer
+	@cmake -S . -B $(BUILD)/tsan -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
+	  -DCMAKE_CXX_FLAGS="-fsanitize=thread -fno-omit-frame-pointer -g1"
+	@cmake --build $(BUILD)/tsan --parallel $(JOBS) --target $(TSAN_TESTS)
+	@cd $(BUILD)/tsan && ctest --output-on-failure --parallel $(JOBS) \
+	  -R '$(if $(filter .,$(T)),Thread|Worker|Golden|RowStore|Interrupted,$(T))'
+
+CORE_DIRS := $(BUILD)/coverage/CMakeFiles/hemicube_raster.dir $(BUILD)/coverage/CMakeFiles/hemicube_core.dir
+coverage: deps ## how much of raster/ and of the core the tests run, by file; fails below 90 % of the lines
+	$(call install,$(COVERAGE_PACKAGES))
+	@cmake -S . -B $(BUILD)/coverage -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
+	  -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG --coverage -fprofile-update=atomic"
+	@cmake --build $(BUILD)/coverage --parallel $(JOBS)
+	@cd $(BUILD)/coverage && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+	@gcovr --root . --exclude-throw-branches --sort-uncovered --fail-under-line 90 $(CORE_DIRS)
+
+tidy: deps ## clang-tidy over raster/ and radiosity/, by .clang-tidy
+	$(call install,$(LINT_PACKAGES))
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@git ls-files 'raster/*.cpp' 'radiosity/*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy-14 -p $(BUILD) --quiet
+
+# Left out: members that stay unset (where they do, the code says so), copies in constructors that read
+# better there, rows of bytes seen as what they hold, and array elements that are written but taken for read.
+CPPCHECK_LEAVES := uninitMemberVar useInitializationList invalidPointerCast constStatement missingInclude
+cppcheck: deps ## cppcheck over raster/ and radiosity/
+	$(call install,$(LINT_PACKAGES))
+	@cppcheck --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
+	  --quiet -j $(JOBS) -I . $(CPPCHECK_LEAVES:%=--suppress=%) $$(git ls-files 'raster/*.cpp' 'radiosity/*.cpp')
 
 FUZZ_TARGETS ?= $(notdir $(wildcard tests/fuzz/corpus/*))
 fuzz: deps ## install clang, feed each fuzz target for T seconds (60) under sanitizers (FUZZ_TARGETS=name... picks some)

@@ -20,7 +20,7 @@ public:
   bool shot(const ShotState& state) noexcept override;
 
   /// What the solver returned, or why it was stopped.
-  Status outcome(Status solved) const { return failure_.ok() ? solved : failure_; }
+  Status outcome(const Status& solved) const { return failure_.ok() ? solved : failure_; }
 
   /// [band of the problem] of the last state; empty before.
   std::span<const double> ambient() const { return ambient_.span(); }

@@ -25,7 +25,7 @@ void print_message(std::string_view message) {
   for (const char c : message)
     line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   line += '\n';
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr)); // who could be told?
 }
 
 std::string rounded(double value) {

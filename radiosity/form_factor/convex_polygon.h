@@ -30,7 +30,7 @@ struct ConvexPolygon {
   ConvexPolygon(const ConvexPolygon& other) noexcept { *this = other; }
   ConvexPolygon& operator=(const ConvexPolygon& other) noexcept {
     count = other.count;
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < count; ++k) // NOLINT(bugprone-unhandled-self-assignment): does no harm
       corners[k] = other.corners[k];
     return *this;
   }

@@ -144,6 +144,7 @@ private:
       middles_.push_back(vertex);
     }
     const std::vector<std::uint32_t>& m = middles_;
+    // cppcheck-suppress containerOutOfBounds ; a patch has three corners or more
     if (m[0] == kNone && m[1] == kNone)
       return add(patch, c);
     if (c.size() == 3) {
