@@ -15,6 +15,15 @@ inline constexpr double kPi = 3.14159265358979323846;
 /// libm of each system rounds differently, this does not. NaN gives NaN.
 double arctangent(double x) noexcept;
 
+/// The larger and the smaller of two numbers; where one is NaN, the other: std::fmax and std::fmin
+/// without a call into libm.
+inline double max_number(double a, double b) noexcept {
+  return b > a || a != a ? b : a;
+}
+inline double min_number(double a, double b) noexcept {
+  return b < a || a != a ? b : a;
+}
+
 struct Turn {
   double cosine, sine;
 };

@@ -68,8 +68,11 @@ Status RowRun::find_pairs(std::uint32_t patch_count) {
 Status RowRun::count_row() {
   ++done_;
   // A worker that finds another one reporting has better things to do than to wait.
-  const std::unique_lock lock(progress_mutex_, std::try_to_lock);
-  return lock.owns_lock() ? report() : Status();
+  if (!progress_mutex_.try_lock())
+    return {};
+  const Status status = report();
+  progress_mutex_.unlock();
+  return status;
 }
 
 Status RowRun::report() {

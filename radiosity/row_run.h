@@ -1,11 +1,11 @@
 #pragma once
 
 #include "radiosity/form_factor/ladder_row.h"
+#include "radiosity/parallel/mutex.h"
 #include "radiosity/radiosity.h"
 #include "raster/fp_environment.h"
 
 #include <atomic>
-#include <mutex>
 
 namespace hemicube::radiosity {
 
@@ -120,7 +120,7 @@ private:
   Progress* progress_ = nullptr;
   std::uint64_t total_ = 0;
   std::atomic<std::uint64_t> done_{0};
-  std::mutex progress_mutex_;
+  Mutex progress_mutex_;
 };
 
 } // namespace hemicube::radiosity

@@ -18,11 +18,11 @@ Status SceneShooter::look_around(RowStatistics* statistics) {
   HC_TRY(space_.resize(problem_.patch_count()));
   EnclosureFinder finder;
   HC_TRY(finder.init(problem_, 1));
-  std::mutex mutex;
+  Mutex mutex;
   const auto take = [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
     space_[i] = row.space;
     statistics->record(i, row, *facts);
-    const std::lock_guard lock(mutex);
+    const MutexLock lock(mutex);
     if (!problem_.is_black(i))
       finder.add_row(0, static_cast<std::uint32_t>(i), row);
     return Status();

@@ -2,9 +2,10 @@
 
 #include "raster/status.h"
 
-#include <cfenv>
 #if defined(__x86_64__)
 #include <xmmintrin.h>
+#else
+#include <cfenv>
 #endif
 
 namespace hemicube {
@@ -13,29 +14,34 @@ namespace hemicube {
 /// changed either for its threads. One per block of work.
 class FloatEnvironment {
 public:
+#if defined(__x86_64__)
+  // float and double are SSE's: its control word says it all, and the C library's <fenv.h>, which
+  // sets the x87's besides, would take libm.
+  FloatEnvironment() noexcept : control_(_mm_getcsr()) {
+    _mm_setcsr(control_ & ~(kRounding | kFlushDenormals));
+  }
+  ~FloatEnvironment() {
+    _mm_setcsr(control_);
+  }
+#else
   FloatEnvironment() noexcept : rounding_(std::fegetround()) {
     if (rounding_ != FE_TONEAREST)
       std::fesetround(FE_TONEAREST);
-#if defined(__x86_64__)
-    control_ = _mm_getcsr();
-    _mm_setcsr(control_ & ~kFlushDenormals);
-#endif
   }
   ~FloatEnvironment() {
-#if defined(__x86_64__)
-    _mm_setcsr(control_);
-#endif
     if (rounding_ != FE_TONEAREST)
       std::fesetround(rounding_);
   }
+#endif
   FloatEnvironment(const FloatEnvironment&) = delete;
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
 private:
-  int rounding_;
 #if defined(__x86_64__)
-  static constexpr unsigned kFlushDenormals = 0x8040; // FTZ and DAZ
+  static constexpr unsigned kRounding = 0x6000, kFlushDenormals = 0x8040; // RC; FTZ and DAZ
   unsigned control_;
+#else
+  int rounding_;
 #endif
 };
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <charconv>
 #include <concepts>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace hemicube {
@@ -31,14 +30,7 @@ public:
 
   Status() noexcept { text_[0] = '\0'; }
   Status(const Status& other) noexcept { *this = other; }
-  Status& operator=(const Status& other) noexcept {
-    if (this == &other)
-      return *this;
-    code_ = other.code_;
-    length_ = other.length_;
-    std::memcpy(text_, other.text_, length_ + 1);
-    return *this;
-  }
+  Status& operator=(const Status& other) noexcept;
 
   /// An error whose message is the concatenation of the parts: text, integers, floating-point
   /// numbers (shortest form that reads back the same, independent of the locale).
@@ -55,20 +47,15 @@ public:
   std::string_view message() const noexcept { return {text_, length_}; }
 
 private:
-  void append(std::string_view text) noexcept {
-    const std::size_t room = kCapacity - 1 - length_;
-    const std::size_t count = text.size() < room ? text.size() : room;
-    for (const char c : text.substr(0, count))
-      text_[length_++] = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    text_[length_] = '\0';
-  }
-  void append(const char* text) noexcept { append(std::string_view(text)); }
-  template <typename Number>
-  requires std::integral<Number> || std::floating_point<Number>
-  void append(Number value) noexcept {
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    append(std::string_view(digits, static_cast<std::size_t>(end - digits)));
+  // Not inline: errors are rare, and returned from everywhere.
+  void append(std::string_view text) noexcept;
+  void append(const char* text) noexcept;
+  void append(double value) noexcept;
+  void append(unsigned long long value) noexcept;
+  void append(long long value) noexcept;
+  template <std::integral Integer> void append(Integer value) noexcept {
+    using Widest = std::conditional_t<std::is_signed_v<Integer>, long long, unsigned long long>;
+    append(static_cast<Widest>(value));
   }
 
   StatusCode code_ = StatusCode::kOk;

@@ -83,7 +83,7 @@ Status RowStore::reserve(std::size_t index, std::size_t bytes) noexcept {
 }
 
 Status RowStore::finish(std::size_t block) noexcept {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   is_finished_[block] = 1;
   byte_count_ += blocks_[block].size();
   if (storage_.file == nullptr)
@@ -97,12 +97,12 @@ Status RowStore::finish(std::size_t block) noexcept {
 }
 
 Status RowStore::flush() noexcept {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return storage_.file == nullptr ? Status() : write_finished();
 }
 
 void RowStore::flush_if_due() noexcept {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (storage_.file != nullptr && storage_.file->is_due())
     static_cast<void>(write_finished());
 }

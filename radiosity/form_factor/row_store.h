@@ -1,11 +1,11 @@
 #pragma once
 
 #include "radiosity/form_factor/byte_file.h"
+#include "radiosity/parallel/mutex.h"
 #include "raster/memory.h"
 
 #include <atomic>
 #include <initializer_list>
-#include <mutex>
 
 namespace hemicube::radiosity {
 
@@ -148,7 +148,7 @@ private:
   Buffer<std::uint64_t> offsets_;        ///< [block in the file, and one beyond] where it begins
   std::atomic<std::uint64_t> byte_count_{0};
   bool is_in_memory_ = true;
-  std::mutex mutex_; ///< of all above but the bytes of unfinished blocks
+  Mutex mutex_; ///< of all above but the bytes of unfinished blocks
 
   mutable Buffer<std::byte> loaded_; ///< blocks loaded_first_ .. loaded_last_ - 1
   mutable std::size_t loaded_first_ = 0, loaded_last_ = 0;

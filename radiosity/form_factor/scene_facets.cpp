@@ -1,5 +1,7 @@
 #include "radiosity/form_factor/scene_facets.h"
 
+#include "radiosity/elementary.h"
+
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -20,7 +22,7 @@ bool share_area(const Facet& a, const Facet& b) {
     common = clip(common, {b.corners[k], glm::cross(b.plane.normal, edge)}, 0);
   }
   const double smaller =
-      std::fmin(glm::length(area_vector(a.corners)), glm::length(area_vector(b.corners)));
+      min_number(glm::length(area_vector(a.corners)), glm::length(area_vector(b.corners)));
   return glm::length(area_vector(common.span())) > kLeastOverlap * smaller;
 }
 
@@ -56,8 +58,8 @@ Status SceneFacets::fill_pieces(const PatchSet& patches) {
     const auto corners = patches.corners_of(i);
     for (const std::uint32_t corner : corners) {
       const Vec3& v = patches.vertices[corner];
-      largest =
-          std::fmax(largest, std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z))));
+      largest = max_number(largest,
+                           max_number(std::fabs(v.x), max_number(std::fabs(v.y), std::fabs(v.z))));
     }
     // A fan of pieces around the first corner.
     for (std::size_t k = 1; k + 1 < corners.size(); k += kMost - 2) {

@@ -1,5 +1,7 @@
 #include "radiosity/form_factor/shaft.h"
 
+#include "radiosity/elementary.h"
+
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -39,7 +41,7 @@ constexpr double kFlatAngle = 0x1p-12;
 
 bool is_flat_over(const Facet& a, const Facet& b, double tolerance) {
   for (const Vec3& corner : b.corners) {
-    const double height = std::fmax(std::fabs(a.plane.side(corner)) - tolerance, 0);
+    const double height = max_number(std::fabs(a.plane.side(corner)) - tolerance, 0);
     const Vec3 apart = corner - a.centre;
     if (height * height > kFlatAngle * kFlatAngle * glm::dot(apart, apart))
       return false;

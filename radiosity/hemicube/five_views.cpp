@@ -1,5 +1,6 @@
 #include "radiosity/hemicube/five_views.h"
 
+#include "radiosity/elementary.h"
 #include "radiosity/mesh/polygon_shape.h"
 
 #include <cmath>
@@ -70,7 +71,7 @@ raster::View hemicube_view(const PatchSet& patches, std::uint32_t patch,
 raster::View hemicube_view(const Vec3& point, const Vec3& normal) noexcept {
   // Divided by its largest component first: its square may be out of range.
   const double largest =
-      std::fmax(std::fabs(normal.x), std::fmax(std::fabs(normal.y), std::fabs(normal.z)));
+      max_number(std::fabs(normal.x), max_number(std::fabs(normal.y), std::fabs(normal.z)));
   const Vec3 direction = unit(normal / largest);
   return turned_view(point, direction, least_aligned_axis(direction));
 }

@@ -78,8 +78,8 @@ Box bounding_box(const PatchSet& patches) {
   for (const std::uint32_t vertex : patches.corners) {
     const Vec3& v = patches.vertices[vertex];
     for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::fmin(box.low[axis], v[axis]);
-      box.high[axis] = std::fmax(box.high[axis], v[axis]);
+      box.low[axis] = min_number(box.low[axis], v[axis]);
+      box.high[axis] = max_number(box.high[axis], v[axis]);
     }
   }
   return box;
@@ -89,7 +89,7 @@ Box bounding_box(const PatchSet& patches) {
 double facing_area(const PatchSet& patches, const Vec3& direction) {
   double sum = 0;
   for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch)
-    sum += patches.area[patch] * std::fmax(glm::dot(patches.normal[patch], direction), 0);
+    sum += patches.area[patch] * max_number(glm::dot(patches.normal[patch], direction), 0);
   return sum;
 }
 
@@ -168,8 +168,8 @@ Camera fit_camera(const PatchSet& patches, std::uint32_t width, std::uint32_t he
                         camera.target;
     const double x = std::fabs(glm::dot(corner, frame.axis_x));
     const double y = std::fabs(glm::dot(corner, frame.axis_y));
-    const double needed = std::fmax(x / half_width, y / half_height);
-    distance = std::fmax(distance, needed - glm::dot(corner, frame.axis_z));
+    const double needed = max_number(x / half_width, y / half_height);
+    distance = max_number(distance, needed - glm::dot(corner, frame.axis_z));
   }
   camera.position = camera.target + distance * direction;
   return camera;

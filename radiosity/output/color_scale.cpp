@@ -169,8 +169,8 @@ Status choose_scale(const Picture& picture, bool is_log, ColorScale* scale) {
   }
   *scale = {0, is_log ? nice_above(high * kRounding).value() : multiple_above(high), is_log};
   if (is_log) { // half of the top leaves a scale where all is the same
-    const double low = std::fmax(quantile(&lit, kRare), scale->max / kDecades);
-    scale->min = nice_below(std::fmin(low, scale->max / 2) / kRounding).value();
+    const double low = max_number(quantile(&lit, kRare), scale->max / kDecades);
+    scale->min = nice_below(min_number(low, scale->max / 2) / kRounding).value();
   }
   return {};
 }

@@ -101,7 +101,7 @@ std::size_t shade_pixel(const Shader& shader, const raster::ItemBuffer& buffer, 
   const std::size_t at = static_cast<std::size_t>(y) * picture->width + static_cast<std::size_t>(x);
   for (int channel = 0; channel < 3; ++channel)
     picture->rgb[at * 3 + static_cast<std::size_t>(channel)] =
-        static_cast<float>(std::fmin(sum[channel] / (samples * samples), kLargest));
+        static_cast<float>(min_number(sum[channel] / (samples * samples), kLargest));
   picture->kind[at] = kind;
   picture->hits[at] = hits;
   return at;
@@ -159,7 +159,7 @@ double luminance_at(const Picture& picture, std::size_t pixel) noexcept {
 double brightest(const Picture& picture) noexcept {
   double largest = 0;
   for (std::size_t i = 0; i < picture.kind.size(); ++i)
-    largest = std::fmax(largest, luminance_at(picture, i));
+    largest = max_number(largest, luminance_at(picture, i));
   return largest > 0 ? largest : 1;
 }
 

@@ -1,5 +1,6 @@
 #include "radiosity/output/picture_values.h"
 
+#include "radiosity/elementary.h"
 #include "radiosity/output/vertex_radiosity.h"
 
 #include <cmath>
@@ -34,8 +35,8 @@ Status error_values(const PatchSet& patches, const Solution& solution, Buffer<do
       double largest = 0;
       for (std::size_t k = patches.corner_offsets[patch]; k < patches.corner_offsets[patch + 1];
            ++k)
-        largest = std::fmax(largest, std::fabs(static_cast<double>(corner[k * bands + band]) -
-                                               solution.radiosity[at]));
+        largest = max_number(largest, std::fabs(static_cast<double>(corner[k * bands + band]) -
+                                                solution.radiosity[at]));
       (*error)[at] = largest / mean;
     }
   }

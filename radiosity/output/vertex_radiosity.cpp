@@ -1,5 +1,6 @@
 #include "radiosity/output/vertex_radiosity.h"
 
+#include "radiosity/elementary.h"
 #include "radiosity/mesh/one_surface.h"
 #include "radiosity/mesh/straight_corners.h"
 #include "radiosity/output/balanced_weights.h"
@@ -172,7 +173,7 @@ private:
       meeting_.corners[meeting_.count] = corner;
       meeting_.offset[meeting_.count] = patches_.centre[patch] - vertex;
       meeting_.weight[meeting_.count++] = patches_.area[patch];
-      largest = std::fmax(largest, patches_.area[patch]);
+      largest = max_number(largest, patches_.area[patch]);
     };
     if (at_position.size() > kMaxMeeting)
       add(surface);
@@ -289,10 +290,10 @@ private:
     for (std::uint32_t band = 0; band < band_count_; ++band) {
       double largest = 0;
       for (std::size_t k = 0; k < meeting_.count; ++k)
-        largest = std::fmax(largest, value(patch_at(k), band));
+        largest = max_number(largest, value(patch_at(k), band));
       const double start = mean_[std::size_t{inside} * band_count_ + band];
       const double beyond = start + stretch * (mean_in_band(band) - start);
-      mine[band] = to_float(std::fmin(std::fmax(beyond, 0), 2 * largest));
+      mine[band] = to_float(min_number(max_number(beyond, 0), 2 * largest));
     }
   }
 

@@ -1,13 +1,22 @@
+#if !defined(HC_NO_THREADS) // else there is no pool
 #include "radiosity/parallel/thread_pool.h"
 
-#include <thread>
+#include <unistd.h>
 
 namespace hemicube::radiosity {
+namespace {
+
+std::uint32_t core_count() {
+  const long count = sysconf(_SC_NPROCESSORS_ONLN);
+  return count > 0 ? static_cast<std::uint32_t>(count) : 1;
+}
+
+} // namespace
 
 Status ThreadPool::init(std::uint32_t threads) {
   HC_ASSERT(threads_.empty());
   if (threads == 0)
-    threads = std::thread::hardware_concurrency();
+    threads = core_count();
   for (std::size_t number = 1; number < threads; ++number) {
     auto* worker = static_cast<Worker*>(detail::allocate(sizeof(Worker)));
     if (worker == nullptr)
@@ -32,19 +41,21 @@ Status ThreadPool::init(std::uint32_t threads) {
 
 ThreadPool::~ThreadPool() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stop_ = true;
   }
-  start_.notify_all();
+  pthread_cond_broadcast(&start_);
   for (Worker* worker : threads_) {
     pthread_join(worker->thread, nullptr);
     detail::release(worker, sizeof(Worker));
   }
+  pthread_cond_destroy(&start_);
+  pthread_cond_destroy(&done_);
 }
 
 Status ThreadPool::run(std::size_t block_count, Block block, void* context) noexcept {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     HC_ASSERT(block_ == nullptr);
     block_ = block;
     context_ = context;
@@ -55,10 +66,11 @@ Status ThreadPool::run(std::size_t block_count, Block block, void* context) noex
     busy_ = threads_.size();
     ++generation_;
   }
-  start_.notify_all();
+  pthread_cond_broadcast(&start_);
   work(0);
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
+  const MutexLock lock(mutex_);
+  while (busy_ != 0)
+    pthread_cond_wait(&done_, mutex_.native());
   block_ = nullptr;
   return failure_;
 }
@@ -73,7 +85,7 @@ void ThreadPool::work(std::size_t worker) {
       continue;
     // Blocks are claimed in order, so every block before a failed one has been claimed too and will
     // still report: the lowest failure is the same for any number of threads.
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (failure_.ok() || index < failed_block_) {
       failure_ = status;
       failed_block_ = index;
@@ -86,18 +98,20 @@ void* ThreadPool::thread_main(void* argument) {
   const auto* worker = static_cast<const Worker*>(argument);
   ThreadPool& pool = *worker->pool;
   std::uint64_t seen = 0;
-  std::unique_lock lock(pool.mutex_);
+  const MutexLock lock(pool.mutex_);
   while (true) {
-    pool.start_.wait(lock, [&] { return pool.stop_ || pool.generation_ != seen; });
+    while (!pool.stop_ && pool.generation_ == seen)
+      pthread_cond_wait(&pool.start_, pool.mutex_.native());
     if (pool.stop_)
       return nullptr;
     seen = pool.generation_;
-    lock.unlock();
+    pool.mutex_.unlock();
     pool.work(worker->number);
-    lock.lock();
+    pool.mutex_.lock();
     if (--pool.busy_ == 0)
-      pool.done_.notify_one();
+      pthread_cond_signal(&pool.done_);
   }
 }
 
 } // namespace hemicube::radiosity
+#endif

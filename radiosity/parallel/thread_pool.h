@@ -1,12 +1,11 @@
 #pragma once
 
 #include "radiosity/parallel/executor.h"
+#include "radiosity/parallel/mutex.h"
 #include "raster/memory.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
 #include <pthread.h>
 
 namespace hemicube::radiosity {
@@ -38,8 +37,8 @@ private:
   };
   Buffer<Worker*> threads_;
 
-  std::mutex mutex_;
-  std::condition_variable start_, done_;
+  Mutex mutex_;
+  pthread_cond_t start_ = PTHREAD_COND_INITIALIZER, done_ = PTHREAD_COND_INITIALIZER;
   std::uint64_t generation_ = 0; ///< counts calls of run
   std::size_t busy_ = 0;         ///< threads that have not finished this generation
   bool stop_ = false;

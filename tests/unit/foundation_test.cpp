@@ -1,6 +1,7 @@
 #include "radiosity/form_factor/matrix.h"
 #include "radiosity/form_factor/reciprocity.h"
 #include "radiosity/form_factor/row_accumulator.h"
+#include "raster/decimal.h"
 #include "raster/fp_environment.h"
 #include "raster/hash.h"
 #include "raster/kernels.h"
@@ -9,8 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cfenv>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -24,6 +28,29 @@ TEST(Status, MessagesJoinTextAndNumbers) {
       Status::error(StatusCode::kBadScene, "a.obj", ":", 12, ": bad ", 0.1, "f ", -3);
   EXPECT_EQ(status.message(), "a.obj:12: bad 0.1f -3");
   EXPECT_EQ(status.code(), StatusCode::kBadScene);
+}
+
+TEST(Decimal, IsThatOfTheStandardLibrary) {
+  std::mt19937_64 random(1);
+  const auto check = [](double value) {
+    char text[kMaxDecimal], expected[64];
+    const std::string_view written(text, shortest_decimal(value, text));
+    EXPECT_EQ(written,
+              std::string_view(expected,
+                               static_cast<std::size_t>(
+                                   std::to_chars(expected, expected + 64, value).ptr - expected)));
+  };
+  for (const double value : {0.0, -0.0, HUGE_VAL, -HUGE_VAL, 0.1, 5e-324, 0x1p-1022, 0x1p-1021,
+                             0x1.fffffffffffffp1023, 1e22, 1e23, 9007199254740993.0, 1e5, 123456.0})
+    check(value);
+  check(std::numeric_limits<double>::quiet_NaN());
+  for (int k = 0; k < 5000; ++k) {
+    const std::uint64_t bits = random();
+    check(std::bit_cast<double>(bits));                                         // any double
+    check(static_cast<double>(static_cast<std::int64_t>(bits) >> (bits % 64))); // whole numbers
+    check(static_cast<double>(bits % 2000001) / 1000 - 1000);                   // few digits
+    check(std::ldexp(1.0, static_cast<int>(bits % 2098) - 1074));               // uneven neighbours
+  }
 }
 
 TEST(Status, LongMessagesAreCut) {
@@ -66,11 +93,16 @@ TEST(Buffer, ElementMayBeItsOwnSource) {
 
 TEST(FloatEnvironment, RestoresRoundingAndDetectsHonestArithmetic) {
   EXPECT_TRUE(check_float_environment().ok());
+  const auto rounds_up = [] {
+    volatile double one = 1, little = 0x1p-60;
+    return one + little > 1;
+  };
   std::fesetround(FE_UPWARD);
   {
     const FloatEnvironment environment;
-    EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+    EXPECT_FALSE(rounds_up());
   }
+  EXPECT_TRUE(rounds_up());
   EXPECT_EQ(std::fegetround(), FE_UPWARD);
   std::fesetround(FE_TONEAREST);
 }
