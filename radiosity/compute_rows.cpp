@@ -144,6 +144,37 @@ Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32
   return {};
 }
 
+Status stream_form_factors(const PatchSet& patches, const Options& options, Executor& executor,
+                           Progress* progress, RowSink* sink, Certificate* certificate) {
+  if (options.balance)
+    return Status::error(StatusCode::kInvalidArgument, "rows that are not kept cannot be ",
+                         "balanced: balance needs those of all patches");
+  const FloatEnvironment environment;
+  const std::uint32_t count = patches.patch_count();
+  RowGeometry geometry;
+  RowRun run;
+  RowStatistics statistics;
+  RungSetting setting{options.rung, options.resolution, options.error};
+  *certificate = {};
+  HC_TRY(geometry.init(patches));
+  Dial dial(&geometry, nullptr, options, executor);
+  HC_TRY(dial.choose(&setting));
+  HC_TRY(run.init(&geometry, setting, options, count, executor, progress));
+  HC_TRY(statistics.init(count, options.hash_items));
+  Mutex mutex;
+  HC_TRY(run.build_all(
+      count, [](std::uint32_t) { return true; },
+      [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
+        statistics.record(i, row, *facts);
+        const MutexLock lock(mutex);
+        return sink->take(i, row);
+      }));
+  certificate->patches = count;
+  certificate->setting = setting;
+  statistics.summarise(certificate);
+  return {};
+}
+
 Status compute_point_form_factors(const PatchSet& patches, std::span<const Receiver> points,
                                   const Options& options, Executor& executor, Progress* progress,
                                   FormFactorMatrix* matrix, Certificate* certificate) {

@@ -129,7 +129,8 @@ Status solve_scene(const Scene& scene, const PatchSet& patches, const Options& o
 
 /// Computes light from form factors that are there; of `options`, those of rows do not count.
 /// @param setting  how the rows were computed
-/// @param rows     of all patches, in memory; taken over
+/// @param rows     of all patches, in memory; changed by Options::balance and by nothing else:
+///                 without it several calls may use the same at once
 /// @return as solve_scene
 Status solve_rows(const Scene& scene, const PatchSet& patches, const RungSetting& setting,
                   FormFactorMatrix* rows, const Options& options, Executor& executor,
@@ -142,6 +143,23 @@ Status solve_rows(const Scene& scene, const PatchSet& patches, const RungSetting
 Status compute_form_factors(const PatchSet& patches, std::span<const std::uint32_t> rows,
                             const Options& options, Executor& executor, Progress* progress,
                             FormFactorMatrix* matrix, Certificate* certificate);
+
+/// Takes rows as they are made.
+class RowSink {
+public:
+  /// Called from any worker, never twice at once, in no fixed order.
+  /// @param row  valid until this returns
+  /// @return what is not ok ends the run
+  virtual Status take(std::uint64_t patch, const RowView& row) noexcept = 0;
+
+protected:
+  ~RowSink() = default;
+};
+
+/// The rows of all patches, given away one by one instead of kept: the same bits as
+/// compute_form_factors. Options::files and estimate_error are not looked at, balance is refused.
+Status stream_form_factors(const PatchSet& patches, const Options& options, Executor& executor,
+                           Progress* progress, RowSink* sink, Certificate* certificate);
 
 /// A place to compute a row at, with the direction it looks to.
 struct Receiver {

@@ -31,7 +31,7 @@ public:
         progress_(progress), dial_(&geometry_, &problem_, options, executor),
         watch_(scene, patches, light_, options, progress) {}
 
-  /// Instead of rows that are computed, or kept in files. @param rows  taken over by build_matrix
+  /// Instead of rows that are computed, or kept in files. @param rows  outlives this
   void give_rows(FormFactorMatrix* rows, const RungSetting& setting) {
     given_rows_ = rows;
     setting_ = setting;
@@ -58,6 +58,8 @@ private:
     return options_.balance || kept_.hold_black_rows() || rows_are_given();
   }
   Status take_given_rows();
+  Status balance_if_asked(Certificate* certificate);
+  FormFactorMatrix& matrix() { return given_rows_ != nullptr ? *given_rows_ : own_rows_; }
   void gather_black(std::uint64_t i, const RowView& row);
   Status gather_black_rows_of(const FormFactorMatrix& rows, std::size_t blocks);
   void record(const Status& status, const Convergence& convergence, Certificate* certificate);
@@ -79,7 +81,7 @@ private:
   Dial dial_;
   RowRun run_;
   RowStatistics statistics_;
-  FormFactorMatrix matrix_;
+  FormFactorMatrix own_rows_;
   SolverWatch watch_;
   Buffer<EnergyBalance> shot_energy_;     ///< [band of the problem] of shoot()
   Buffer<double> radiosity_, irradiance_; ///< [patch][band of the problem]
@@ -132,19 +134,21 @@ Status SceneSolver::choose_setting() {
 
 Status SceneSolver::take_given_rows() {
   HC_TRY(statistics_.init(patches_.patch_count(), options_.hash_items));
-  if (given_rows_ != nullptr)
-    matrix_.swap(*given_rows_);
-  else
-    HC_TRY(kept_.read_given(&matrix_, &setting_));
-  return statistics_.record_rows(matrix_, matrix_.row_count());
+  if (given_rows_ == nullptr)
+    HC_TRY(kept_.read_given(&own_rows_, &setting_));
+  return statistics_.record_rows(matrix(), matrix().row_count());
+}
+
+Status SceneSolver::balance_if_asked(Certificate* certificate) {
+  return options_.balance
+             ? balance_rows(patches_, executor_, progress_, &matrix(), &statistics_, certificate)
+             : Status();
 }
 
 Status SceneSolver::build_matrix(Certificate* certificate) {
   if (rows_are_given()) {
     HC_TRY(take_given_rows());
-    return options_.balance
-               ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
-               : Status();
+    return balance_if_asked(certificate);
   }
   const std::uint32_t count = patches_.patch_count();
   const auto is_wanted = [&](std::uint32_t i) { return has_black_rows() || !problem_.is_black(i); };
@@ -158,8 +162,8 @@ Status SceneSolver::build_matrix(Certificate* certificate) {
   kept_.begin_round(setting_, found_.span());
   RowStorage pairs;
   std::uint64_t first = 0;
-  HC_TRY(kept_.begin_matrix(KeptRows::Part::kRows, &matrix_, &first));
-  HC_TRY(statistics_.record_rows(matrix_, first));
+  HC_TRY(kept_.begin_matrix(KeptRows::Part::kRows, &own_rows_, &first));
+  HC_TRY(statistics_.record_rows(own_rows_, first));
   HC_TRY(kept_.open(KeptRows::Part::kPairs, &pairs));
   run_.keep_pairs(pairs);
   for (std::uint32_t i = 0; i < first; ++i)
@@ -169,18 +173,16 @@ Status SceneSolver::build_matrix(Certificate* certificate) {
       [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
         if (facts != nullptr)
           statistics_.record(i, row, *facts);
-        return matrix_.append_row(i / FormFactorMatrix::kBlockRows, row,
-                                  facts != nullptr ? *facts : RowFacts());
+        return own_rows_.append_row(i / FormFactorMatrix::kBlockRows, row,
+                                    facts != nullptr ? *facts : RowFacts());
       },
       first);
   kept_.report(std::max(first, run_.pair_rows_kept()));
   if (!built.ok())
-    matrix_.flush_if_due();
+    own_rows_.flush_if_due();
   HC_TRY(built);
-  HC_TRY(kept_.finish(&matrix_));
-  return options_.balance
-             ? balance_rows(patches_, executor_, progress_, &matrix_, &statistics_, certificate)
-             : Status();
+  HC_TRY(kept_.finish(&own_rows_));
+  return balance_if_asked(certificate);
 }
 
 Status SceneSolver::solve(Certificate* certificate) {
@@ -189,7 +191,7 @@ Status SceneSolver::solve(Certificate* certificate) {
   HC_TRY(is_black.resize(patches_.patch_count()));
   for (std::uint32_t i = 0; i < patches_.patch_count(); ++i)
     is_black[i] = !options_.balance && problem_.is_black(i); // without a row, or as if without
-  HC_TRY(measure_reciprocity(matrix_, patches_.area.span(), executor_, &certificate->reciprocity,
+  HC_TRY(measure_reciprocity(matrix(), patches_.area.span(), executor_, &certificate->reciprocity,
                              is_black.span()));
   const SolverOptions options = {options_.tolerance, options_.max_sweeps, options_.kernels,
                                  options_.stop_unshot, options_.max_shots};
@@ -197,8 +199,8 @@ Status SceneSolver::solve(Certificate* certificate) {
   const auto run = options_.solver == SolverKind::kGaussSeidel ? gauss_seidel
                    : options_.solver == SolverKind::kJacobi    ? jacobi
                                                                : progressive;
-  const Status status = watch_.outcome(
-      run(matrix_, problem_, options, executor_, &watch_, &radiosity_, &irradiance_, &convergence));
+  const Status status = watch_.outcome(run(matrix(), problem_, options, executor_, &watch_,
+                                           &radiosity_, &irradiance_, &convergence));
   certificate->has_residual = true;
   record(status, convergence, certificate);
   return status;
@@ -262,11 +264,11 @@ Status SceneSolver::estimate_error(Certificate* certificate, bool* is_enough) {
   HC_TRY(choose_sample(problem_, radiosity_.span(), doubt.span(), &sample));
   HC_TRY(compute_exact_rows(&geometry_, setting_, options_, executor_, &sample));
   Certificate& c = *certificate;
-  HC_TRY(estimate_radiosity_error(sample, matrix_, problem_, radiosity_.span(), executor_,
+  HC_TRY(estimate_radiosity_error(sample, matrix(), problem_, radiosity_.span(), executor_,
                                   &c.radiosity_error));
   c.has_radiosity_error = true;
   FormFactorMatrix rows;
-  HC_TRY(rows.copy_rows(matrix_, sample.patches()));
+  HC_TRY(rows.copy_rows(matrix(), sample.patches()));
   c.form_factor_error = sample.form_factor_error([&](std::size_t k) { return rows.row(k); });
   c.has_form_factor_error = true;
   if (rows_are_given() || !options_.choose_rung || c.radiosity_error <= options_.error)
@@ -294,7 +296,7 @@ Status SceneSolver::gather_black_irradiance() {
     return {};
   }
   if (has_black_rows())
-    return gather_black_rows_of(matrix_, matrix_.block_count());
+    return gather_black_rows_of(matrix(), matrix().block_count());
   // Rows that are used once and dropped, or kept where there is a file for them.
   FormFactorMatrix black_rows;
   std::uint64_t first = 0;

@@ -25,23 +25,35 @@ void release_aligned(void* memory, std::size_t) {
   std::free(memory);
 }
 
-void stop(const char*, const char*, int) {
-  __builtin_trap();
-}
+constexpr Allocator kDefaultAllocator = {allocate_aligned, release_aligned};
 
-Allocator g_allocator = {allocate_aligned, release_aligned};
-AssertHandler g_assert_handler = stop;
+Allocator g_allocator = kDefaultAllocator;
+AssertHandler g_assert_handler = nullptr;
+LogHandler g_log_handler = nullptr;
 
 } // namespace
 
 void set_allocator(const Allocator& allocator) noexcept {
   g_allocator = allocator;
 }
+Allocator default_allocator() noexcept {
+  return kDefaultAllocator;
+}
 void set_assert_handler(AssertHandler handler) noexcept {
   g_assert_handler = handler;
 }
+void set_log_handler(LogHandler handler) noexcept {
+  g_log_handler = handler;
+}
+
+void log_message(const char* message) noexcept {
+  if (g_log_handler != nullptr)
+    g_log_handler(message);
+}
 
 void assertion_failed(const char* expression, const char* file, int line) noexcept {
+  if (g_assert_handler == nullptr)
+    __builtin_trap();
   g_assert_handler(expression, file, line);
 }
 

@@ -21,11 +21,18 @@ struct Allocator {
 };
 inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
 void set_allocator(const Allocator& allocator) noexcept;
+/// That of the C library, and what there is until set_allocator is called.
+Allocator default_allocator() noexcept;
 
-/// Called with the text of a violated precondition; the default stops the program.
+/// Called with the text of a violated precondition; null, the default, stops the program.
 using AssertHandler = void (*)(const char* expression, const char* file, int line);
 void set_assert_handler(AssertHandler handler) noexcept;
 void assertion_failed(const char* expression, const char* file, int line) noexcept;
+
+/// Told of what is noteworthy and no error, one line; from any thread. Null, the default: nobody.
+using LogHandler = void (*)(const char* message);
+void set_log_handler(LogHandler handler) noexcept;
+void log_message(const char* message) noexcept;
 
 namespace detail {
 void* allocate(std::size_t bytes) noexcept;
@@ -205,6 +212,7 @@ private:
 
 } // namespace hemicube
 
-/// A precondition of the caller. Violations are bugs, not bad input.
+/// A precondition of the caller. Violations are bugs, not bad input. The file is told without its
+/// folder, which is that of whoever built the program.
 #define HC_ASSERT(expression)                                                                      \
-  ((expression) ? (void)0 : ::hemicube::assertion_failed(#expression, __FILE__, __LINE__))
+  ((expression) ? (void)0 : ::hemicube::assertion_failed(#expression, __FILE_NAME__, __LINE__))

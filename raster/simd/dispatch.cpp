@@ -1,6 +1,7 @@
 #include "raster/simd/dispatch.h"
 
 #include "raster/kernels.h"
+#include "raster/memory.h"
 
 #include <cstdlib>
 
@@ -57,9 +58,14 @@ const Kernels* kernels_by_name(std::string_view name) noexcept {
 }
 
 const Kernels& best_kernels() noexcept {
-  if (const char* forced = std::getenv("HEMICUBE_ISA"))
+  if (const char* forced = std::getenv("HEMICUBE_ISA")) {
     if (const Kernels* kernels = kernels_by_name(forced))
       return *kernels;
+    log_message(Status::error(StatusCode::kInvalidArgument, "HEMICUBE_ISA=", forced,
+                              " is not available here, and not looked at")
+                    .message()
+                    .data());
+  }
   for (const Kernels* kernels : kAllKernels)
     if (runs_here(*kernels))
       return *kernels;

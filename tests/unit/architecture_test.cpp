@@ -47,7 +47,7 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 
 bool is_adapter(const std::string& file) {
   static const std::regex adapter(
-      R"(radiosity/(adaptive|cli/|discontinuity/|refine/|scene/(?!scene\.h|name_table\.h)|mesh/openmesh_|output/(corner_vertices|csv_reader|display_mesh|element_table|file_set|file_writer|glb_writer|group_matrix|group_table|image_|little_endian|matrix_market|number_text|patch_table|ply_writer|report_json|row_file|solution_files)).*)");
+      R"(radiosity/(adaptive|cli/|discontinuity/|refine/|scene/(?!scene\.h|name_table\.h|check_scene\.)|mesh/openmesh_|output/(corner_vertices|csv_reader|display_mesh|element_table|file_set|file_writer|glb_writer|group_matrix|group_table|image_|little_endian|matrix_market|number_text|patch_table|ply_writer|report_json|row_file|solution_files)).*)");
   return std::regex_match(file, adapter);
 }
 
