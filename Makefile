@@ -7,7 +7,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
-TEST_PACKAGES := libgtest-dev libtinygltf-dev
+TEST_PACKAGES := libgtest-dev libtinygltf-dev python3
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 LINT_PACKAGES := clang-tidy-14 cppcheck
@@ -59,10 +59,10 @@ test: deps ## install, build, and run all tests (T=regex picks some)
 	@cd $(BUILD) && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
 format: deps-check ## format all sources
-	@git ls-files '*.h' '*.cpp' '*.inl' | xargs clang-format-14 -i
+	@git ls-files '*.h' '*.cpp' '*.inl' '*.c' | xargs clang-format-14 -i
 
 format-check: deps-check ## fail if a source is not formatted
-	@git ls-files '*.h' '*.cpp' '*.inl' | xargs clang-format-14 --dry-run --Werror
+	@git ls-files '*.h' '*.cpp' '*.inl' '*.c' | xargs clang-format-14 --dry-run --Werror
 
 determinism: deps deps-check ## the golden hashes with g++ and clang++, Debug and Release
 	@set -e; for compiler in g++ clang++; do for type in Debug Release; do \
