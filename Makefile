@@ -3,11 +3,12 @@
 BUILD ?= build
 TYPE ?= Release
 T ?= .
+PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
-TEST_PACKAGES := libgtest-dev libtinygltf-dev python3
+TEST_PACKAGES := libgtest-dev libtinygltf-dev python3 dpkg-dev
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 LINT_PACKAGES := clang-tidy-14 cppcheck
@@ -31,7 +32,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core bench speed solvers refinement growth peers golden check-glb clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -132,6 +133,15 @@ fuzz: deps ## install clang, feed each fuzz target for T seconds (60) under sani
 core: ## the embeddable core alone: a C++20 compiler and GLM
 	@cmake -S . -B $(BUILD)/core -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_CORE_ONLY=ON
 	@cmake --build $(BUILD)/core --parallel $(JOBS)
+
+core-sources: ## the sources of the core, to be added to another build
+	@sed -n '/^add_library(hemicube_\(raster\|c_api\|core\) /,/^)/s/^  \(r.*\.cpp\)$$/\1/p' raster/CMakeLists.txt radiosity/CMakeLists.txt
+
+install: all ## install program, libraries and headers (PREFIX=/usr/local)
+	@cmake --install $(BUILD) --prefix $(PREFIX)
+
+package: all ## make a Debian package in the build folder
+	@cd $(BUILD) && cpack -G DEB
 
 bench: deps ## hemicubes per second beside their error, and each kernel alone, into bench/results
 	$(call install,$(BENCH_PACKAGES))
