@@ -32,7 +32,7 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement growth peers golden check-glb clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement embedding growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -175,6 +175,11 @@ refinement: deps ## error against number of elements, uniform and adaptive meshe
 	@if command -v gnuplot >/dev/null; then for table in bench/results/*/refinement.csv; do \
 	  gnuplot -e "folder='$$(dirname $$table)'" bench/refinement/plot.gp; done; \
 	else echo "refinement: no plots without gnuplot ($(SUDO) $(APT_INSTALL) $(PLOT_PACKAGES))"; fi
+
+embedding: deps ## bytes of code, heap per thread, patch and form factor, time to start, into bench/results
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target embedding --target c_api_room
+	@$(BUILD)/embedding $(BUILD)/libhemicube.so $(BUILD)/tests/c_api_room bench/results
 
 GROWTH_OPTIONS ?= --rung hemicube --resolution 128 --threads 2
 growth: deps ## time and memory of whole runs of the program on larger and larger scenes, into bench/results
