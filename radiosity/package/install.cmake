@@ -21,7 +21,7 @@ if(HEMICUBE_CORE_ONLY)
 else()
   set(HEMICUBE_COMPONENTS raster radiosity io)
   set_target_properties(hemicube_io PROPERTIES EXPORT_NAME io)
-  install_component(io hemicube_io hemicube_readers)
+  install_component(io hemicube_io hemicube_readers hemicube_discontinuity)
   install(TARGETS hemicube)
   install(TARGETS hemicube_image_oiio DESTINATION lib/hemicube) # where the program looks for it
 endif()
@@ -29,15 +29,15 @@ endif()
 install(FILES radiosity/c_api/hemicube.h DESTINATION include)
 install(DIRECTORY raster radiosity DESTINATION include/hemicube
   FILES_MATCHING PATTERN "*.h"
-  PATTERN "simd/ops_*" EXCLUDE PATTERN "c_api" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "pictures" EXCLUDE)
+  PATTERN "simd/ops_*" EXCLUDE PATTERN "c_api" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "pictures" EXCLUDE PATTERN "package" EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY radiosity/c_api/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-configure_package_config_file(cmake/hemicube-config.cmake.in hemicube-config.cmake
+configure_package_config_file(radiosity/package/hemicube-config.cmake.in hemicube-config.cmake
   INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(hemicube-config-version.cmake COMPATIBILITY SameMinorVersion)
 file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-configure_file(cmake/hemicube.pc.in hemicube.pc @ONLY)
+configure_file(radiosity/package/hemicube.pc.in hemicube.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hemicube-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/hemicube-config-version.cmake DESTINATION ${config_dir})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hemicube.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
