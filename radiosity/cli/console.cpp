@@ -1,5 +1,7 @@
 #include "radiosity/cli/console.h"
 
+#include "raster/status.h"
+
 #include <cstdio>
 
 namespace hemicube::radiosity::cli {
@@ -20,12 +22,22 @@ bool flush_output() {
   return !output_failed;
 }
 
-void print_message(std::string_view message) {
-  std::string line = "hemicube: ";
-  for (const char c : message)
-    line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  line += '\n';
-  static_cast<void>(std::fwrite(line.data(), 1, line.size(), stderr)); // who could be told?
+void print_message(std::string_view message) noexcept {
+  // Without memory of its own, since that may be what the message is about.
+  constexpr std::string_view kName = "hemicube: ";
+  char line[kName.size() + Status::kCapacity + 1];
+  std::size_t size = kName.copy(line, kName.size());
+  const auto send = [&] {
+    static_cast<void>(std::fwrite(line, 1, size, stderr)); // who could be told?
+    size = 0;
+  };
+  for (const char c : message) {
+    if (size + 1 == sizeof line)
+      send();
+    line[size++] = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  }
+  line[size++] = '\n';
+  send();
 }
 
 std::string rounded(double value) {

@@ -15,7 +15,8 @@ void print(std::string_view text);
 bool flush_output();
 
 /// One line `hemicube: MESSAGE` on stderr; control characters, as file names may hold, become '?'.
-void print_message(std::string_view message);
+/// It takes no memory.
+void print_message(std::string_view message) noexcept;
 
 namespace detail {
 inline void append(std::string* text, std::string_view part) {

@@ -2,6 +2,7 @@
 #include "radiosity/cli/console.h"
 #include "radiosity/cli/interrupt.h"
 
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -69,15 +70,34 @@ int run(int argc, char** argv) {
   return kDone;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+/// Says what was thrown; for handlers.
+void print_exception() noexcept {
   try {
-    return run(argc, argv);
+    throw;
   } catch (const std::bad_alloc&) {
     print_message("out of memory");
   } catch (const std::exception& exception) {
     print_message(exception.what());
+  }
+}
+
+/// Ends the program where an exception cannot be caught: libraries have destructors that take
+/// memory, as nlohmann::json's do.
+[[noreturn]] void end_at_once() noexcept {
+  if (std::current_exception() == nullptr)
+    std::abort();
+  print_exception();
+  std::_Exit(kFailed);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  std::set_terminate(end_at_once);
+  try {
+    return run(argc, argv);
+  } catch (const std::exception&) {
+    print_exception();
   }
   return kFailed;
 }

@@ -41,16 +41,13 @@ Status check_replaceable(const std::string& path) {
 
 FileSet::~FileSet() {
   remove_temporaries();
-  std::error_code ignored;
   if (made_folder_)
-    fs::remove(folder_, ignored); // only if it is empty
+    ::rmdir(folder_.c_str()); // only if it is empty
 }
 
 void FileSet::remove_temporaries() {
-  for (const File& file : files_) {
-    std::error_code ignored;
-    fs::remove(file.temporary, ignored);
-  }
+  for (const File& file : files_)
+    ::unlink(file.temporary.c_str()); // an fs::path would take memory, which may have run out
   files_.clear();
 }
 
@@ -62,14 +59,13 @@ Status FileSet::begin(const std::string& folder) {
     return Status::error(StatusCode::kIo, folder_, ": cannot be created: ",
                          created ? created.message() : "a file of that name exists",
                          "; choose another with -o");
-  const std::string probe = (fs::path(folder_) / (temporary_prefix() + "probe")).string();
   FileWriter writer;
-  if (!writer.open(probe, folder_).ok())
+  if (!writer.open(path_for("probe"), folder_).ok())
     return Status::error(StatusCode::kIo, folder_,
                          ": no file can be written there; choose another with -o");
   writer.write("probe");
   const Status written = writer.close();
-  fs::remove(probe, error);
+  remove_temporaries();
   return written;
 }
 

@@ -1,12 +1,12 @@
 #include "radiosity/output/file_writer.h"
 
 #include <cerrno>
-#include <system_error>
+#include <cstring>
 
 namespace hemicube::radiosity {
 
-std::string errno_text(int error) {
-  return std::generic_category().message(error);
+const char* errno_text(int error) noexcept {
+  return std::strerror(error);
 }
 
 FileWriter::~FileWriter() {

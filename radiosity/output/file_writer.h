@@ -45,7 +45,7 @@ private:
   int error_ = 0; ///< errno of the first failure
 };
 
-/// What an errno means, in words.
-std::string errno_text(int error);
+/// What an errno means, in words. It takes no memory, since that may be what failed.
+const char* errno_text(int error) noexcept;
 
 } // namespace hemicube::radiosity

@@ -21,8 +21,7 @@ constexpr std::uint64_t kMostWaiting = 512;
 
 Status RowFile::failed(const char* what, int error) const noexcept {
   return Status::error(
-      StatusCode::kIo, std::string_view(path_), ": ", what, ": ",
-      std::string_view(errno_text(error)),
+      StatusCode::kIo, std::string_view(path_), ": ", what, ": ", errno_text(error),
       error == ENOSPC || error == EDQUOT || error == EFBIG ? "; make room and run again" : "");
 }
 
@@ -78,11 +77,14 @@ void RowFile::use_temporary() {
 
 Status RowFile::make() noexcept {
   if (is_temporary_) {
-    std::string name = path_ + "-XXXXXX";
+    constexpr char kEnd[] = "-XXXXXX"; // and a NUL
+    Buffer<char> name;
+    HC_TRY(name.append(path_));
+    HC_TRY(name.append(kEnd));
     descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
     if (descriptor_ < 0)
       return failed("cannot be made", errno);
-    ::unlink(name.c_str());
+    ::unlink(name.data());
   } else {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST)
@@ -175,8 +177,8 @@ Status RowFile::rename(const std::string& path) {
   if (::rename(path_.c_str(), path.c_str()) != 0) {
     const int error = errno;
     return Status::error(StatusCode::kIo, std::string_view(path),
-                         ": cannot be put in place: ", std::string_view(errno_text(error)),
-                         "; it is in ", std::string_view(path_));
+                         ": cannot be put in place: ", errno_text(error), "; it is in ",
+                         std::string_view(path_));
   }
   path_ = path;
   return {};
