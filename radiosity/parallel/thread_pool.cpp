@@ -32,8 +32,8 @@ Status ThreadPool::init(std::uint32_t threads) {
     if (pthread_create(&worker->thread, nullptr, thread_main, worker) != 0) {
       detail::release(worker, sizeof(Worker));
       (void)threads_.resize(threads_.size() - 1);
-      return Status::error(StatusCode::kInvalidArgument, "only ", threads_.size() + 1, " of ",
-                           threads, " threads could be started: ask for fewer");
+      return Status::error(StatusCode::kOutOfMemory, "only ", threads_.size() + 1, " of ", threads,
+                           " threads could be started: ask for fewer");
     }
   }
   return {};

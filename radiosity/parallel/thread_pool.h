@@ -20,7 +20,7 @@ public:
   ~ThreadPool();
 
   /// @param threads  workers in all, the caller included; 0 = as many as the machine has cores
-  /// @return kInvalidArgument if a thread cannot be started: the pool then works with those it has
+  /// @return kOutOfMemory if the system refuses a thread: the pool then works with those it has
   Status init(std::uint32_t threads);
 
   std::size_t worker_count() const noexcept override { return threads_.size() + 1; }
