@@ -14,6 +14,7 @@ extern "C" void ask_to_stop(int) {
 } // namespace
 
 void catch_interrupts() {
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction action = {};
     action.sa_handler = ask_to_stop;
