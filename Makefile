@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
-TEST_PACKAGES := libgtest-dev libtinygltf-dev python3 dpkg-dev
+TEST_PACKAGES := libgtest-dev libtinygltf-dev python3 dpkg-dev locales
 CHECK_PACKAGES := clang clang-format
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 LINT_PACKAGES := clang-tidy-14 cppcheck
