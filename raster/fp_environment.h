@@ -4,6 +4,8 @@
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
+#elif defined(__aarch64__)
+#include <cstdint>
 #else
 #include <cfenv>
 #endif
@@ -23,6 +25,14 @@ public:
   ~FloatEnvironment() {
     _mm_setcsr(control_);
   }
+#elif defined(__aarch64__)
+  FloatEnvironment() noexcept {
+    asm volatile("mrs %0, fpcr" : "=r"(control_));
+    asm volatile("msr fpcr, %0" : : "r"(control_ & ~(kRounding | kFlushDenormals)));
+  }
+  ~FloatEnvironment() {
+    asm volatile("msr fpcr, %0" : : "r"(control_));
+  }
 #else
   FloatEnvironment() noexcept : rounding_(std::fegetround()) {
     if (rounding_ != FE_TONEAREST)
@@ -40,6 +50,10 @@ private:
 #if defined(__x86_64__)
   static constexpr unsigned kRounding = 0x6000, kFlushDenormals = 0x8040; // RC; FTZ and DAZ
   unsigned control_;
+#elif defined(__aarch64__)
+  static constexpr std::uint64_t kRounding = 0xc00000;        // RMode
+  static constexpr std::uint64_t kFlushDenormals = 0x1000003; // FZ; AH and FIZ
+  std::uint64_t control_;
 #else
   int rounding_;
 #endif

@@ -107,6 +107,30 @@ TEST(FloatEnvironment, RestoresRoundingAndDetectsHonestArithmetic) {
   std::fesetround(FE_TONEAREST);
 }
 
+/// What a host program may do to its threads.
+void flush_denormals() {
+#if defined(__x86_64__)
+  _mm_setcsr(_mm_getcsr() | 0x8040);
+#elif defined(__aarch64__)
+  asm volatile("msr fpcr, %0" : : "r"(std::uint64_t{1} << 24));
+#endif
+}
+
+TEST(FloatEnvironment, KeepsDenormals) {
+  const FloatEnvironment restored;
+  flush_denormals();
+  volatile float small = 0x1p-100f, tiny = 0;
+  {
+    const FloatEnvironment environment;
+    tiny = small * 0x1p-40f;
+    EXPECT_NE(tiny, 0.0f);
+  }
+#if defined(__x86_64__) || defined(__aarch64__)
+  tiny = small * 0x1p-40f;
+  EXPECT_EQ(tiny, 0.0f); // as the host had it
+#endif
+}
+
 TEST(Hash, DependsOnOrderAndEveryBit) {
   Hash a, b, c;
   a.add(std::uint64_t{1});
