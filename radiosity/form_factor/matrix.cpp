@@ -82,8 +82,9 @@ RowView FormFactorMatrix::view(std::span<const std::byte> bytes) noexcept {
     return {};
   const RowHead& head = *reinterpret_cast<const RowHead*>(bytes.data());
   const auto* columns = reinterpret_cast<const std::uint32_t*>(bytes.data() + sizeof(RowHead));
-  return {{columns, head.nonzeros},
-          {reinterpret_cast<const float*>(columns + head.nonzeros), head.nonzeros},
+  const auto nonzeros = static_cast<std::size_t>(head.nonzeros); // it is in memory
+  return {{columns, nonzeros},
+          {reinterpret_cast<const float*>(columns + nonzeros), nonzeros},
           head.scale,
           head.space,
           head.back_side};

@@ -32,7 +32,7 @@ struct WorstFraction {
   Patch worst[kListed];          ///< the first of them: most first, of equal ones the lower patch
 
   std::span<const Patch> listed() const noexcept {
-    return {worst, count < kListed ? count : kListed};
+    return {worst, static_cast<std::size_t>(count < kListed ? count : kListed)};
   }
 };
 
