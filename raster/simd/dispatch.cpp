@@ -34,19 +34,37 @@ std::string_view kernel_names() noexcept {
   return "avx512, avx2, sse41, scalar";
 }
 
-#else
+#else // what was built runs
+#if defined(__aarch64__)
+extern const Kernels kNeonKernels;
+#elif defined(__wasm_simd128__)
+extern const Kernels kWasmKernels;
+#endif
+
 namespace {
 
 bool runs_here(const Kernels&) {
   return true;
 }
 
-const Kernels* const kAllKernels[] = {&kScalarKernels};
+const Kernels* const kAllKernels[] = {
+#if defined(__aarch64__)
+    &kNeonKernels,
+#elif defined(__wasm_simd128__)
+    &kWasmKernels,
+#endif
+    &kScalarKernels};
 
 } // namespace
 
 std::string_view kernel_names() noexcept {
+#if defined(__aarch64__)
+  return "neon, scalar";
+#elif defined(__wasm_simd128__)
+  return "wasm, scalar";
+#else
   return "scalar";
+#endif
 }
 #endif
 

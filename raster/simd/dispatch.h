@@ -6,8 +6,8 @@ namespace hemicube::raster {
 
 struct Kernels; // raster/kernels.h
 
-/// The kernels of an instruction set by name ("scalar", "sse41", "avx2", "avx512"), or null if this
-/// build or this machine has none of that name.
+/// The kernels of an instruction set by name ("scalar", "sse41", "avx2", "avx512", "neon", "wasm"),
+/// or null if this build or this machine has none of that name.
 const Kernels* kernels_by_name(std::string_view name) noexcept;
 
 /// The fastest kernels this machine runs. HEMICUBE_ISA in the environment forces one by name; a

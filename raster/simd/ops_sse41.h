@@ -1,6 +1,8 @@
 // Operations of the SSE4.1 kernels: 2 doubles, 4 floats, 4 integers. A mask is a vector of
 // all-ones lanes. See ops_scalar.h for what each one means.
 
+#include "raster/simd/lanes_to_front.inl"
+
 constexpr int kDoubles = 2;
 constexpr int kFloats = 4;
 using D = __m128d;
@@ -201,21 +203,6 @@ static inline void u_store_where(uint32_t* to, M mask, U a, U there) {
   u_store(to, u_select(mask, a, there));
 }
 static inline void u_compress(uint32_t* to, U a, M mask) {
-  // Which bytes to move for each of the 16 masks: worked out once, at compile time.
-  struct Table {
-    alignas(16) uint8_t bytes[16][16];
-    constexpr Table() : bytes() {
-      for (int m = 0; m < 16; ++m) {
-        int k = 0;
-        for (int lane = 0; lane < 4; ++lane)
-          if ((m >> lane & 1) != 0)
-            for (int byte = 0; byte < 4; ++byte)
-              bytes[m][k++] = static_cast<uint8_t>(lane * 4 + byte);
-      }
-    }
-  };
-  static constexpr Table kTable;
-  const __m128i order =
-      _mm_load_si128(reinterpret_cast<const __m128i*>(kTable.bytes[m_bits(mask)]));
-  u_store(to, _mm_shuffle_epi8(a, order));
+  const auto* order = reinterpret_cast<const __m128i*>(kLanesToFront.bytes[m_bits(mask)]);
+  u_store(to, _mm_shuffle_epi8(a, _mm_load_si128(order)));
 }

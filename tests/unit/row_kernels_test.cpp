@@ -61,7 +61,7 @@ TEST_P(RowKernelsTest, SumsAreThoseOfRowDot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Isas, RowKernelsTest,
-                         ::testing::Values("scalar", "sse41", "avx2", "avx512"),
+                         ::testing::Values("scalar", "sse41", "avx2", "avx512", "neon"),
                          [](const auto& test) { return std::string(test.param); });
 
 } // namespace

@@ -298,7 +298,7 @@ TEST(GaussSeidel, ThreadsAndInstructionSetsGiveTheSameBits) {
   FormFactorMatrix matrix;
   s.fill(&matrix);
   Buffer<double> first_b, first_h;
-  for (const char* isa : {"scalar", "sse41", "avx2", "avx512"})
+  for (const char* isa : {"scalar", "sse41", "avx2", "avx512", "neon"})
     for (const std::uint32_t threads : {1u, 2u, 3u, 7u}) {
       SolverOptions options;
       options.kernels = raster::kernels_by_name(isa);

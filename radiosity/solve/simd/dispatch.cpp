@@ -13,6 +13,18 @@ const RowKernels& row_kernels(std::string_view isa) noexcept {
     return kAvx2RowKernels;
   return isa == "sse41" ? kSse2RowKernels : kScalarRowKernels;
 }
+#elif defined(__aarch64__)
+extern const RowKernels kNeonRowKernels;
+
+const RowKernels& row_kernels(std::string_view isa) noexcept {
+  return isa == "neon" ? kNeonRowKernels : kScalarRowKernels;
+}
+#elif defined(__wasm_simd128__)
+extern const RowKernels kWasmRowKernels;
+
+const RowKernels& row_kernels(std::string_view isa) noexcept {
+  return isa == "wasm" ? kWasmRowKernels : kScalarRowKernels;
+}
 #else
 const RowKernels& row_kernels(std::string_view) noexcept {
   return kScalarRowKernels;
