@@ -10,6 +10,8 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
 TEST_PACKAGES := libgtest-dev libtinygltf-dev python3 dpkg-dev locales
 CHECK_PACKAGES := clang clang-format
+PORT_PACKAGES := g++-aarch64-linux-gnu qemu-user nodejs \
+  clang-14 lld-14 llvm-14 wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 LINT_PACKAGES := clang-tidy-14 cppcheck
 COVERAGE_PACKAGES := gcovr
@@ -17,14 +19,12 @@ BENCH_PACKAGES := libbenchmark-dev
 PLOT_PACKAGES := gnuplot-nox
 PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri $(PLOT_PACKAGES)
 VIEWER_PACKAGES := nodejs npm chromium
+NODE_WASI := node --no-warnings --experimental-wasi-unstable-preview1 tests/golden/run_wasi.mjs
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
 # Packages of a list that are not installed; none where there is no dpkg to ask.
 missing = $(shell command -v dpkg-query >/dev/null && for p in $(1); do \
   dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done)
-
-# What the build folder was configured with, in the shell: determinism need not build that again.
-cached = $$(sed -n 's/^$(1):[A-Z]*=//p' $(BUILD)/CMakeCache.txt 2>/dev/null)
 
 define install
 @set -e; missing="$(call missing,$(1))"; if [ -n "$$missing" ]; then \
@@ -32,7 +32,15 @@ define install
   $(SUDO) apt-get update -qq && DEBIAN_FRONTEND=noninteractive $(SUDO) $(APT_INSTALL) $$missing; fi
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement embedding growth peers golden check-glb clean ci
+# The core alone, built apart with some options of CMake, and the hashes it gives, run by another program
+# where this machine cannot: $(call hashes,name,options,runner).
+define hashes
+@cmake -S . -B $(BUILD)/determinism/$(1) -DHEMICUBE_CORE_ONLY=ON -DHEMICUBE_TESTS=ON $(2) >/dev/null
+@cmake --build $(BUILD)/determinism/$(1) --parallel $(JOBS) --target golden_hashes
+@echo "== $(1)" && $(3) $(BUILD)/determinism/$(1)/golden_hashes <$(BUILD)/determinism/scenes
+endef
+
+.PHONY: all help deps deps-check demo test format format-check determinism determinism-quick sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement embedding growth peers golden check-glb clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -65,18 +73,24 @@ format: deps-check ## format all sources
 format-check: deps-check ## fail if a source is not formatted
 	@git ls-files '*.h' '*.cpp' '*.inl' '*.c' | xargs clang-format-14 --dry-run --Werror
 
-determinism: deps deps-check ## the golden hashes with g++ and clang++, Debug and Release
-	@set -e; for compiler in g++ clang++; do for type in Debug Release; do \
-	  set -- $(call cached,CMAKE_BUILD_TYPE) $(call cached,CMAKE_CXX_COMPILER) $(call cached,HEMICUBE_TESTS); \
-	  if [ "$$1 $$(readlink -f "$$2") $$3" = "$$type $$(readlink -f "$$(command -v $$compiler)") ON" ]; then \
-	    dir=$(BUILD); \
-	  else \
-	    dir=$(BUILD)/determinism/$$compiler-$$type; \
-	    cmake -S . -B $$dir -DCMAKE_CXX_COMPILER=$$compiler -DCMAKE_BUILD_TYPE=$$type \
-	      -DHEMICUBE_TESTS=ON >/dev/null; \
-	  fi; \
-	  cmake --build $$dir --parallel $(JOBS) --target golden_test; \
-	  echo "== $$compiler $$type"; $$dir/tests/golden_test --gtest_brief=1; done; done
+determinism: determinism-quick ## the golden hashes on every compiler, optimisation and processor that there is
+	$(call install,$(PORT_PACKAGES))
+	$(call hashes,g++-O2,-DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call hashes,g++-static,-DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXE_LINKER_FLAGS=-static)
+	$(call hashes,clang++-O0,-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug)
+	$(call hashes,clang++-O2,-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo)
+	$(call hashes,aarch64,-DCMAKE_TOOLCHAIN_FILE=tests/golden/aarch64.cmake -DCMAKE_BUILD_TYPE=Release,qemu-aarch64)
+	@cmake --build $(BUILD)/determinism/aarch64 --parallel $(JOBS) --target processor_test
+	@qemu-aarch64 $(BUILD)/determinism/aarch64/processor_test --gtest_brief=1
+	$(call hashes,wasm,-DCMAKE_TOOLCHAIN_FILE=tests/golden/wasm.cmake -DCMAKE_BUILD_TYPE=Release,$(NODE_WASI))
+
+determinism-quick: deps deps-check ## the same with the build folder's compiler, g++ -O0 and clang++ -O3
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON -DHEMICUBE_WERROR=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target pack_scenes --target golden_hashes
+	@mkdir -p $(BUILD)/determinism && $(BUILD)/pack_scenes >$(BUILD)/determinism/scenes
+	@echo "== $(TYPE), $(BUILD)" && $(BUILD)/golden_hashes <$(BUILD)/determinism/scenes
+	$(call hashes,g++-O0,-DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Debug)
+	$(call hashes,clang++-O3,-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release)
 
 sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake -S . -B $(BUILD)/sanitize -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
@@ -212,7 +226,7 @@ check-glb: ## solution.glb in a browser, against its own colours and view.png (n
 	@npm install --prefix $(BUILD)/viewers --no-audit --no-fund --loglevel error three@0.160.1 gltf-validator@2.0.0-dev.3.10
 	@node tests/viewers/check_glb.mjs $(BUILD)/viewers/cornell $(BUILD)/viewers chromium
 
-ci: test format-check determinism ## what .ci/run runs
+ci: test format-check determinism-quick ## what .ci/run runs
 
 clean: ## delete the build folder
 	@rm -rf $(BUILD)
