@@ -17,6 +17,8 @@ namespace {
 
 using test::expect_sound;
 using test::fronts_of;
+using test::inner_points;
+using test::is_hidden;
 using test::polygon_of;
 using test::Random;
 using test::require;
@@ -150,51 +152,6 @@ TEST(PatchCutter, NoCellLiesOnBothSidesOfALine) {
       }
     }
   }
-}
-
-/// Whether something of the scene lies between two points. @param doubt  metres
-bool is_hidden(const PatchSet& patches, const Vec3& from, const Vec3& to, double doubt) {
-  for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
-    const Vec3 &normal = patches.normal[p], &origin = patches.centre[p];
-    const double side_from = glm::dot(normal, from - origin);
-    const double side_to = glm::dot(normal, to - origin);
-    if (!(side_from * side_to < 0) || std::fabs(side_from) < doubt || std::fabs(side_to) < doubt)
-      continue;
-    const Vec3 at = from + (to - from) * (side_from / (side_from - side_to));
-    bool is_inside = true;
-    const std::vector<Vec3> points = polygon_of(patches, p);
-    for (std::size_t k = 0; k < points.size() && is_inside; ++k)
-      is_inside = glm::dot(normal, glm::cross(points[(k + 1) % points.size()] - points[k],
-                                              at - points[k])) > 0;
-    if (is_inside)
-      return true;
-  }
-  return false;
-}
-
-/// Points of a polygon that are farther than `margin` from its border.
-std::vector<Vec3> inner_points(const std::vector<Vec3>& polygon, const Vec3& normal, double margin,
-                               Random* random) {
-  std::vector<Vec3> points;
-  for (int tries = 0; tries < 40 && points.size() < 6; ++tries) {
-    Vec3 sum(0);
-    double weights = 0;
-    for (const Vec3& corner : polygon) {
-      const double weight = random->unit() * random->unit();
-      sum += weight * corner;
-      weights += weight;
-    }
-    const Vec3 point = sum / weights;
-    bool is_inner = true;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Vec3 edge = polygon[(k + 1) % polygon.size()] - polygon[k];
-      is_inner = is_inner && glm::dot(glm::cross(normal, edge), point - polygon[k]) >
-                                 margin * glm::length(edge);
-    }
-    if (is_inner)
-      points.push_back(point);
-  }
-  return points;
 }
 
 /// Pairs of inner points of one element that do not see the same corners of an emitter, and how

@@ -21,4 +21,12 @@ Scene crooked_sheet(std::uint32_t seed);
 /// through one another.
 Scene random_box_room(std::uint32_t seed);
 
+/// Whether something of the scene lies between two points. @param doubt  metres: what is as close
+/// to a plane lies in it
+bool is_hidden(const PatchSet& patches, const Vec3& from, const Vec3& to, double doubt);
+
+/// Up to 6 points of a polygon that are farther than `margin` from its border.
+std::vector<Vec3> inner_points(const std::vector<Vec3>& polygon, const Vec3& normal, double margin,
+                               Random* random);
+
 } // namespace hemicube::test

@@ -1,4 +1,5 @@
-/* A closed room of 6 x n x n patches with a light in its ceiling: form factors, their closure, light.
+/* A closed room of 6 x n x n patches with a light in its ceiling: form factors, their closure,
+ * light.
  *
  *   cc -std=c99 room.c -lhemicube -o room && ./room
  *
@@ -72,8 +73,9 @@ int main(void) {
   double* values = malloc((size_t)nonzeros * sizeof *values);
   if (row_offsets == NULL || values == NULL)
     return 1;
-  check(hc_form_factors_get_csr(form_factors, rows, nonzeros, row_offsets, NULL, values, NULL, NULL),
-        "rows");
+  check(
+      hc_form_factors_get_csr(form_factors, rows, nonzeros, row_offsets, NULL, values, NULL, NULL),
+      "rows");
   double worst = 0;
   for (uint64_t i = 0; i < rows; ++i) {
     double sum = 0;
@@ -81,7 +83,8 @@ int main(void) {
       sum += values[k];
     worst = fabs(sum - 1) > worst ? fabs(sum - 1) : worst;
   }
-  printf("%d patches, %d form factors, row sums within %.1e of 1\n", (int)rows, (int)nonzeros, worst);
+  printf("%d patches, %d form factors, row sums within %.1e of 1\n", (int)rows, (int)nonzeros,
+         worst);
 
   /* The light by these form factors. Handles keep what they need of each other. */
   hc_solution* solution;
