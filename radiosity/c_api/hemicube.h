@@ -1,8 +1,7 @@
 /* hemicube: diffuse form factors and radiosity, for C99 and whatever calls C.
  *
- *   hc_scene_desc desc = {.struct_size = sizeof desc}; ...     arrays in: vertices, polygons, materials
- *   hc_scene* scene;
- *   if (hc_scene_create(&desc, &scene) != HC_OK) puts(hc_error_text());
+ *   hc_scene_desc desc = {.struct_size = sizeof desc}; ...     arrays in: vertices, polygons,
+ * materials hc_scene* scene; if (hc_scene_create(&desc, &scene) != HC_OK) puts(hc_error_text());
  *   hc_solution* solution;
  *   int status = hc_solve(scene, NULL, NULL, &solution);   light on every patch
  *

@@ -22,7 +22,8 @@ struct PatchSet {
   Buffer<std::uint32_t> corner_offsets; ///< [patch_count + 1]
   Buffer<std::uint32_t> corners;        ///< vertex indices, counter-clockwise seen from the front
 
-  /// [corner] of the edge from this corner to the next, the same from both sides; empty = all smooth
+  /// [corner] of the edge from this corner to the next, the same from both sides; empty = all
+  /// smooth
   Buffer<EdgeLight> edge_light;
 
   Buffer<std::uint32_t> face;     ///< 0-based number of the input face, dropped faces counted

@@ -174,13 +174,11 @@ std::uint32_t ElementTree::make_middle(std::uint32_t a, std::uint32_t b) {
 
 /// The mean of the corners of a node, which is that of the middles of its edges, too. Where edges
 /// are not cut in the middle, only the latter leaves convex pieces.
-std::uint32_t ElementTree::make_centre(std::uint32_t node,
-                                       std::span<const std::uint32_t> middles) {
+std::uint32_t ElementTree::make_centre(std::uint32_t node, std::span<const std::uint32_t> middles) {
   const std::size_t count = nodes_[node].corner_count;
   bool are_halves = true;
   for (std::size_t k = 0; k < count; ++k)
-    are_halves = are_halves &&
-                 vertices_[middles[k]] == 0.5 * (point(node, k) + point(node, k + 1));
+    are_halves = are_halves && vertices_[middles[k]] == 0.5 * (point(node, k) + point(node, k + 1));
   Vec3 sum(0, 0, 0); // relative to the first corner
   for (std::size_t k = 0; k < count; ++k)
     sum += (are_halves ? point(node, k) : vertices_[middles[k]]) - point(node, 0);
@@ -305,8 +303,8 @@ Status ElementTree::make_mesh(PatchSet* elements) const {
     HC_TRY(mesh.corners.append(std::span<const std::uint32_t>(polygon)));
     if (!patches_->edge_light.empty())
       for (std::size_t k = 0; k < polygon.size(); ++k)
-        HC_TRY(mesh.edge_light.push_back(
-            light_across(polygon[k], polygon[(k + 1) % polygon.size()])));
+        HC_TRY(
+            mesh.edge_light.push_back(light_across(polygon[k], polygon[(k + 1) % polygon.size()])));
     HC_TRY(check_mesh_size(0, mesh.corners.size(), 0, "allow fewer elements"));
     HC_TRY(mesh.corner_offsets.push_back(static_cast<std::uint32_t>(mesh.corners.size())));
     HC_TRY(mesh.face.push_back(patches_->face[patch]));

@@ -11,9 +11,9 @@ namespace hemicube::radiosity {
 
 /// Patches and the elements they are cut into (Cohen et al. 1986): a tree for every front, whose
 /// leaves are the elements. Edges are halved, always by the same bits from both sides, or cut where
-/// a straight corner of a patch is: the vertex of a neighbour. A quad becomes 4 quads, or 2 where it
-/// is much longer than wide; a triangle 4 triangles; a larger polygon one quad per corner about the
-/// mean of its vertices.
+/// a straight corner of a patch is: the vertex of a neighbour. A quad becomes 4 quads, or 2 where
+/// it is much longer than wide; a triangle 4 triangles; a larger polygon one quad per corner about
+/// the mean of its vertices.
 class ElementTree {
 public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -92,8 +92,8 @@ private:
   const PatchSet* patches_ = nullptr;
   std::vector<Node> nodes_; ///< the first are the fronts
   std::vector<std::uint32_t> corners_;
-  std::vector<Vec3> vertices_;       ///< those of the patches first
-  std::vector<std::uint32_t> place_; ///< [vertex] the first vertex at the same position
+  std::vector<Vec3> vertices_;         ///< those of the patches first
+  std::vector<std::uint32_t> place_;   ///< [vertex] the first vertex at the same position
   std::uint32_t first_own_vertex_ = 0; ///< those before are of the patches
   // All are looked up only, never walked. Edges go by their two places.
   std::unordered_map<Vec3, std::uint32_t, PositionHash> vertex_at_;

@@ -19,10 +19,9 @@ int main(int, char** argv) {
   options.resolution = 16;
   Solution solution;
   Certificate certificate;
-  for (const Status& status : {read_scene(argv[1], &scene, &read),
-                               build_patches(scene, &patches, &mesh), pool.init(1),
-                               solve_scene(scene, patches, options, pool, nullptr, &solution,
-                                           &certificate)})
+  for (const Status& status :
+       {read_scene(argv[1], &scene, &read), build_patches(scene, &patches, &mesh), pool.init(1),
+        solve_scene(scene, patches, options, pool, nullptr, &solution, &certificate)})
     if (!status.ok()) {
       std::puts(status.message().data());
       return 1;
