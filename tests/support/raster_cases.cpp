@@ -1,5 +1,7 @@
 #include "tests/support/raster_cases.h"
 
+#include <algorithm>
+
 namespace hemicube::test {
 
 namespace {
@@ -60,8 +62,11 @@ RasterCase touching_the_eye_plane() {
 
 RasterCase behind() {
   PolygonSet polygons = polygon_soup(4, 100, 2, 0.1, 1);
-  for (Vec3& vertex : polygons.vertices)
-    vertex.z = -std::abs(vertex.z) - 0.01;
+  double highest = 0;
+  for (const Vec3& vertex : polygons.vertices)
+    highest = std::max(highest, vertex.z);
+  for (Vec3& vertex : polygons.vertices) // together: polygons stay flat
+    vertex.z -= highest + 0.01;
   return {"behind", polygons, {{}}, true};
 }
 
