@@ -252,6 +252,7 @@ TEST(ElementTree, WhatDoublesDoNotHalveIsNotCut) {
   for (int k = 0; k < 2; ++k) {
     require(patches.material.push_back(0));
     require(patches.area.push_back(1));
+    require(patches.normal.push_back(Vec3(0, 0, 1)));
   }
   patches.front_count = 2;
   ElementTree tree;
