@@ -7,6 +7,12 @@ template <typename... Parts> Status misuse(const Parts&... parts) noexcept {
   return Status::error(StatusCode::kInvalidArgument, "the executor ", parts...);
 }
 
+/// Takes a flag that threads share; std::atomic_ref is not in every C++ library yet.
+/// @return false if it was taken
+bool take(std::uint8_t* flag) noexcept {
+  return __atomic_exchange_n(flag, std::uint8_t{1}, __ATOMIC_ACQ_REL) == 0;
+}
+
 } // namespace
 
 Status CallerExecutor::init(const hc_executor& executor) noexcept {
@@ -53,13 +59,12 @@ Status CallerExecutor::run_block(std::uint64_t block, std::uint32_t worker) noex
     return misuse("ran block ", block, " of ", is_begun_.size());
   if (worker >= is_busy_.size())
     return misuse("ran a block as worker ", worker, " of ", is_busy_.size());
-  if (std::atomic_ref(is_begun_[block]).exchange(1) != 0)
+  if (!take(&is_begun_[block]))
     return misuse("ran block ", block, " twice");
-  std::atomic_ref is_busy(is_busy_[worker]);
-  if (is_busy.exchange(1) != 0)
+  if (!take(&is_busy_[worker]))
     return misuse("ran two blocks at once as worker ", worker);
   const Status status = block_(context_, block, worker);
-  is_busy.store(0);
+  __atomic_store_n(&is_busy_[worker], std::uint8_t{0}, __ATOMIC_RELEASE);
   ++done_;
   return status;
 }
