@@ -8,4 +8,6 @@ set(HEMICUBE_THREADS OFF CACHE BOOL "")
 set(CMAKE_AR llvm-ar-14 CACHE STRING "")
 set(CMAKE_RANLIB llvm-ranlib-14 CACHE STRING "")
 set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fignore-exceptions")
+# What is usual elsewhere; the linker's own 64 KB are less than rows on the finer rungs take.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,-z,stack-size=8388608")
 include(${CMAKE_CURRENT_LIST_DIR}/glm_alone.cmake)
