@@ -37,7 +37,7 @@ Status PatchCutter::init(const PatchSet& patches) {
   *this = {};
   patches_ = &patches;
   for (const Vec3& position : patches.vertices)
-    add_vertex(position);
+    vertices_.add_vertex(position);
   for (std::uint32_t patch = 0; patch < patches.patch_count(); ++patch) {
     const auto corners = patches.corners_of(patch);
     cells_.push_back({Cell(corners.begin(), corners.end())});
@@ -46,39 +46,20 @@ Status PatchCutter::init(const PatchSet& patches) {
   return {};
 }
 
-std::uint64_t PatchCutter::edge_key(std::uint32_t a, std::uint32_t b) const noexcept {
-  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
-  return low << 32 | high;
-}
-
-std::uint32_t PatchCutter::add_vertex(const Vec3& position) {
-  const auto number = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back(position);
-  place_.push_back(vertex_at_.try_emplace(position, number).first->second);
-  return number;
-}
-
 std::uint32_t PatchCutter::split_edge(std::uint32_t a, std::uint32_t b, double share) {
-  const auto [at, is_new] = splits_.try_emplace(edge_key(a, b), 0u);
-  if (is_new)
-    at->second = add_vertex(vertices_[a] + share * (vertices_[b] - vertices_[a]));
-  return at->second;
-}
-
-void PatchCutter::append_hanging(std::uint32_t a, std::uint32_t b, Cell* cell) const {
-  const auto found = splits_.find(edge_key(a, b));
-  if (found == splits_.end())
-    return;
-  append_hanging(a, found->second, cell);
-  cell->push_back(found->second);
-  append_hanging(found->second, b, cell);
+  std::uint32_t between = vertices_.split(a, b);
+  if (between == SplitEdges::kNone) {
+    between = vertices_.add_vertex(vertices_[a] + share * (vertices_[b] - vertices_[a]));
+    vertices_.set_split(a, b, between);
+  }
+  return between;
 }
 
 void PatchCutter::insert_hanging(Cell* cell) const {
   Cell whole;
   for (std::size_t k = 0; k < cell->size(); ++k) {
     whole.push_back((*cell)[k]);
-    append_hanging((*cell)[k], (*cell)[next_of(k, cell->size())], &whole);
+    vertices_.append_hanging((*cell)[k], (*cell)[next_of(k, cell->size())], &whole);
   }
   cell->swap(whole);
 }
@@ -195,9 +176,9 @@ void PatchCutter::split_at(std::uint32_t a, std::uint32_t b, const Line& line, d
   const double low = std::min(at_a, at_b), high = std::max(at_a, at_b);
   if (!(along - low > snap && high - along > snap))
     return;
-  if (const auto found = splits_.find(edge_key(a, b)); found != splits_.end()) {
-    split_at(a, found->second, line, along, snap);
-    split_at(found->second, b, line, along, snap);
+  if (const std::uint32_t between = vertices_.split(a, b); between != SplitEdges::kNone) {
+    split_at(a, between, line, along, snap);
+    split_at(between, b, line, along, snap);
   } else {
     split_edge(a, b, (along - at_a) / (at_b - at_a));
   }
@@ -242,18 +223,16 @@ void PatchCutter::note_light(std::uint32_t patch, const Vec3& begin, const Vec3&
         continue;
       const double at_a = line.along(vertices_[a]), at_b = line.along(vertices_[b]);
       const double low = std::min(at_a, at_b), high = std::max(at_a, at_b);
-      if (std::min(high, line.length) - std::max(low, 0.0) < kLeastPart * (high - low))
-        continue;
-      EdgeLight& known = lights_.try_emplace(edge_key(a, b), light).first->second;
-      known = std::max(known, light);
+      if (std::min(high, line.length) - std::max(low, 0.0) >= kLeastPart * (high - low))
+        vertices_.note_light(a, b, light);
     }
   }
 }
 
 Status PatchCutter::make_mesh(PatchSet* cells) const {
   *cells = {};
-  HC_TRY(check_mesh_size(cell_count_, 0, vertices_.size(), "begin with a coarser mesh"));
-  HC_TRY(cells->vertices.append(std::span<const Vec3>(vertices_)));
+  HC_TRY(check_mesh_size(cell_count_, 0, vertices_.vertex_count(), "begin with a coarser mesh"));
+  HC_TRY(cells->vertices.append(std::span<const Vec3>(vertices_.positions())));
   HC_TRY(cells->corner_offsets.push_back(0));
   for (std::uint32_t patch = 0; patch < cells_.size(); ++patch)
     for (const Cell& cut : cells_[patch]) {
@@ -262,11 +241,7 @@ Status PatchCutter::make_mesh(PatchSet* cells) const {
       HC_TRY(cells->corners.append(std::span<const std::uint32_t>(cell)));
       HC_TRY(check_mesh_size(0, cells->corners.size(), 0, "begin with a coarser mesh"));
       HC_TRY(cells->corner_offsets.push_back(static_cast<std::uint32_t>(cells->corners.size())));
-      for (std::size_t k = 0; k < cell.size(); ++k) {
-        const auto found = lights_.find(edge_key(cell[k], cell[next_of(k, cell.size())]));
-        HC_TRY(cells->edge_light.push_back(found != lights_.end() ? found->second
-                                                                  : EdgeLight::kSmooth));
-      }
+      HC_TRY(vertices_.append_lights(cell, &cells->edge_light));
       HC_TRY(cells->face.push_back(patches_->face[patch]));
       HC_TRY(cells->parent.push_back(patches_->parent[patch]));
       HC_TRY(cells->material.push_back(patches_->material[patch]));

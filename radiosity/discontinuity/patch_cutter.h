@@ -1,10 +1,8 @@
 #pragma once
 
-#include "radiosity/mesh/patch_set.h"
-#include "radiosity/mesh/position_hash.h"
+#include "radiosity/discontinuity/split_edges.h"
 
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace hemicube::radiosity {
@@ -57,19 +55,11 @@ private:
   bool has_resolved_area(const Cell& cell) const;
 
   void insert_hanging(Cell* cell) const;
-  void append_hanging(std::uint32_t a, std::uint32_t b, Cell* cell) const;
   std::uint32_t split_edge(std::uint32_t a, std::uint32_t b, double share);
-  std::uint32_t add_vertex(const Vec3& position);
-  std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) const noexcept;
 
   const PatchSet* patches_ = nullptr;
   std::vector<std::vector<Cell>> cells_; ///< [patch]
-  std::vector<Vec3> vertices_;           ///< those of the patches first
-  std::vector<std::uint32_t> place_;     ///< [vertex] the first vertex at the same position
-  // All are looked up only, never walked. Edges go by their two places.
-  std::unordered_map<Vec3, std::uint32_t, PositionHash> vertex_at_;
-  std::unordered_map<std::uint64_t, std::uint32_t> splits_; ///< the vertex on an edge
-  std::unordered_map<std::uint64_t, EdgeLight> lights_;     ///< across edges where it is not smooth
+  SplitEdges vertices_;                  ///< those of the patches first
   std::uint64_t cell_count_ = 0;
 };
 

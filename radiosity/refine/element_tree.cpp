@@ -22,8 +22,8 @@ Status ElementTree::init(const Scene& scene, const PatchSet& patches) {
   scene_ = &scene;
   patches_ = &patches;
   for (const Vec3& position : patches.vertices)
-    add_vertex(position);
-  first_own_vertex_ = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.add_vertex(position);
+  first_own_vertex_ = vertices_.vertex_count();
   Buffer<std::uint8_t> is_straight;
   HC_TRY(find_straight_corners(patches, &is_straight));
   for (std::uint32_t patch = 0; patch < patches.front_count; ++patch)
@@ -52,8 +52,8 @@ void ElementTree::add_patch(std::uint32_t patch, std::span<const std::uint8_t> i
     k = next;
   }
   for (std::size_t k = 0; k < count; ++k)
-    note_light(from[k], from[(k + 1) % count],
-               patches_->light_across(patches_->corner_offsets[patch] + k));
+    vertices_.note_light(from[k], from[(k + 1) % count],
+                         patches_->light_across(patches_->corner_offsets[patch] + k));
   node.corner_count = static_cast<std::uint32_t>(corners_.size() - node.first_corner);
   nodes_.push_back(node);
 }
@@ -70,27 +70,12 @@ void ElementTree::hang(std::span<const std::uint32_t> side) {
   std::size_t best = 1;
   for (std::size_t k = 2; k + 1 < side.size(); ++k) {
     const double here = off_middle(side[k]), there = off_middle(side[best]);
-    if (here < there || (here == there && place_[side[k]] < place_[side[best]]))
+    if (here < there || (here == there && vertices_.place(side[k]) < vertices_.place(side[best])))
       best = k;
   }
-  middles_.try_emplace(edge_key(side.front(), side.back()), side[best]);
+  vertices_.set_split(side.front(), side.back(), side[best]);
   hang(side.first(best + 1));
   hang(side.subspan(best));
-}
-
-std::uint64_t ElementTree::edge_key(std::uint32_t a, std::uint32_t b) const noexcept {
-  const std::uint64_t low = std::min(place_[a], place_[b]), high = std::max(place_[a], place_[b]);
-  return low << 32 | high;
-}
-
-EdgeLight ElementTree::light_across(std::uint32_t a, std::uint32_t b) const {
-  const auto found = lights_.find(edge_key(a, b));
-  return found != lights_.end() ? found->second : EdgeLight::kSmooth;
-}
-
-void ElementTree::note_light(std::uint32_t a, std::uint32_t b, EdgeLight light) {
-  if (light != EdgeLight::kSmooth)
-    lights_.try_emplace(edge_key(a, b), light);
 }
 
 std::uint32_t ElementTree::side_count(std::uint32_t node) const noexcept {
@@ -134,7 +119,7 @@ std::uint32_t ElementTree::pieces_of(std::uint32_t leaf, double min_edge) const 
     if (count == 4 && !(k % 2 == 0 ? cut.along_0 : cut.along_1))
       continue;
     const Vec3 &a = points[k], &b = points[(k + 1) % count];
-    const std::uint32_t hanging = middle(corners(leaf)[k], corners(leaf)[(k + 1) % count]);
+    const std::uint32_t hanging = vertices_.split(corners(leaf)[k], corners(leaf)[(k + 1) % count]);
     const Vec3 half = 0.5 * (a + b);
     const double length = glm::length(b - a);
     // Halves that are too short, or no halves at all.
@@ -154,20 +139,14 @@ std::uint32_t ElementTree::pieces_of(std::uint32_t leaf, double min_edge) const 
   return count == 3 ? 4 : count == 4 ? (cut.along_0 && cut.along_1 ? 4 : 2) : count;
 }
 
-std::uint32_t ElementTree::middle(std::uint32_t a, std::uint32_t b) const {
-  const auto found = middles_.find(edge_key(a, b));
-  return found != middles_.end() ? found->second : kNone;
-}
-
 std::uint32_t ElementTree::make_middle(std::uint32_t a, std::uint32_t b) {
-  const auto [at, is_new] = middles_.try_emplace(edge_key(a, b), kNone);
-  const std::uint32_t middle =
-      is_new ? add_vertex(0.5 * (vertices_[a] + vertices_[b])) : at->second;
-  at->second = middle;
-  if (is_new) {
-    const EdgeLight light = light_across(a, b);
-    note_light(a, middle, light);
-    note_light(middle, b, light);
+  std::uint32_t middle = vertices_.split(a, b);
+  if (middle == kNone) {
+    middle = vertices_.add_vertex(0.5 * (vertices_[a] + vertices_[b]));
+    vertices_.set_split(a, b, middle);
+    const EdgeLight light = vertices_.light_across(a, b);
+    vertices_.note_light(a, middle, light);
+    vertices_.note_light(middle, b, light);
   }
   return middle;
 }
@@ -182,14 +161,7 @@ std::uint32_t ElementTree::make_centre(std::uint32_t node, std::span<const std::
   Vec3 sum(0, 0, 0); // relative to the first corner
   for (std::size_t k = 0; k < count; ++k)
     sum += (are_halves ? point(node, k) : vertices_[middles[k]]) - point(node, 0);
-  return add_vertex(point(node, 0) + sum / static_cast<double>(count));
-}
-
-std::uint32_t ElementTree::add_vertex(const Vec3& position) {
-  const auto number = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back(position);
-  place_.push_back(vertex_at_.try_emplace(position, number).first->second);
-  return number;
+  return vertices_.add_vertex(point(node, 0) + sum / static_cast<double>(count));
 }
 
 void ElementTree::add_child(std::uint32_t parent, std::initializer_list<std::uint32_t> corners) {
@@ -267,29 +239,19 @@ std::vector<std::uint32_t> ElementTree::uneven_leaves() const {
 }
 
 bool ElementTree::is_uneven_edge(std::uint32_t a, std::uint32_t b) const {
-  const std::uint32_t m = middle(a, b);
+  const std::uint32_t m = vertices_.split(a, b);
   if (m == kNone)
     return false;
   if (m < first_own_vertex_) // the patch has had it from the beginning
     return is_uneven_edge(a, m) || is_uneven_edge(m, b);
-  return middle(a, m) != kNone || middle(m, b) != kNone;
-}
-
-void ElementTree::append_hanging(std::uint32_t a, std::uint32_t b,
-                                 std::vector<std::uint32_t>* corners) const {
-  const std::uint32_t m = middle(a, b);
-  if (m == kNone)
-    return;
-  append_hanging(a, m, corners);
-  corners->push_back(m);
-  append_hanging(m, b, corners);
+  return vertices_.split(a, m) != kNone || vertices_.split(m, b) != kNone;
 }
 
 Status ElementTree::make_mesh(PatchSet* elements) const {
   *elements = {};
   PatchSet& mesh = *elements;
-  HC_TRY(check_mesh_size(element_count_, 0, vertices_.size(), "allow fewer elements"));
-  HC_TRY(mesh.vertices.append(std::span<const Vec3>(vertices_)));
+  HC_TRY(check_mesh_size(element_count_, 0, vertices_.vertex_count(), "allow fewer elements"));
+  HC_TRY(mesh.vertices.append(std::span<const Vec3>(vertices_.positions())));
   HC_TRY(mesh.corner_offsets.push_back(0));
   std::vector<std::uint32_t> polygon;
   for (const std::uint32_t leaf : leaves()) {
@@ -297,14 +259,12 @@ Status ElementTree::make_mesh(PatchSet* elements) const {
     polygon.clear();
     for (std::size_t k = 0; k < c.size(); ++k) {
       polygon.push_back(c[k]);
-      append_hanging(c[k], c[(k + 1) % c.size()], &polygon);
+      vertices_.append_hanging(c[k], c[(k + 1) % c.size()], &polygon);
     }
     const std::uint32_t patch = nodes_[leaf].patch;
     HC_TRY(mesh.corners.append(std::span<const std::uint32_t>(polygon)));
     if (!patches_->edge_light.empty())
-      for (std::size_t k = 0; k < polygon.size(); ++k)
-        HC_TRY(
-            mesh.edge_light.push_back(light_across(polygon[k], polygon[(k + 1) % polygon.size()])));
+      HC_TRY(vertices_.append_lights(polygon, &mesh.edge_light));
     HC_TRY(check_mesh_size(0, mesh.corners.size(), 0, "allow fewer elements"));
     HC_TRY(mesh.corner_offsets.push_back(static_cast<std::uint32_t>(mesh.corners.size())));
     HC_TRY(mesh.face.push_back(patches_->face[patch]));

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "radiosity/mesh/patch_set.h"
-#include "radiosity/mesh/position_hash.h"
+#include "radiosity/discontinuity/split_edges.h"
 #include "radiosity/scene/scene.h"
 
-#include <unordered_map>
 #include <vector>
 
 namespace hemicube::radiosity {
@@ -73,32 +71,21 @@ private:
 
   void add_patch(std::uint32_t patch, std::span<const std::uint8_t> is_straight);
   void hang(std::span<const std::uint32_t> side);
-  std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) const noexcept;
-  EdgeLight light_across(std::uint32_t a, std::uint32_t b) const;
-  void note_light(std::uint32_t a, std::uint32_t b, EdgeLight light);
   bool is_uneven_edge(std::uint32_t a, std::uint32_t b) const;
   std::span<const std::uint32_t> corners(std::uint32_t node) const noexcept;
   const Vec3& point(std::uint32_t node, std::size_t corner) const noexcept;
   double edge_length(std::uint32_t node, std::size_t k) const noexcept;
   Cut cut_of(std::uint32_t node) const noexcept;
-  std::uint32_t middle(std::uint32_t a, std::uint32_t b) const;
   std::uint32_t make_middle(std::uint32_t a, std::uint32_t b);
   std::uint32_t make_centre(std::uint32_t node, std::span<const std::uint32_t> middles);
-  std::uint32_t add_vertex(const Vec3& position);
   void add_child(std::uint32_t parent, std::initializer_list<std::uint32_t> corners);
-  void append_hanging(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>* corners) const;
 
   const Scene* scene_ = nullptr;
   const PatchSet* patches_ = nullptr;
   std::vector<Node> nodes_; ///< the first are the fronts
   std::vector<std::uint32_t> corners_;
-  std::vector<Vec3> vertices_;         ///< those of the patches first
-  std::vector<std::uint32_t> place_;   ///< [vertex] the first vertex at the same position
+  SplitEdges vertices_;                ///< those of the patches first
   std::uint32_t first_own_vertex_ = 0; ///< those before are of the patches
-  // All are looked up only, never walked. Edges go by their two places.
-  std::unordered_map<Vec3, std::uint32_t, PositionHash> vertex_at_;
-  std::unordered_map<std::uint64_t, std::uint32_t> middles_; ///< the vertex that cuts an edge
-  std::unordered_map<std::uint64_t, EdgeLight> lights_; ///< across edges where it is not smooth
   std::uint64_t element_count_ = 0;
 };
 
