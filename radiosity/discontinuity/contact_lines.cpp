@@ -44,18 +44,9 @@ private:
     const bool is_coplanar = !any_front && !any_back;
     const bool on_front = any_front || is_coplanar, on_back = any_back || is_coplanar;
     if (any_front && any_back) {
-      Vec3 ends[2];
-      int found = 0;
-      for (std::size_t k = 0; k < count && found < 2; ++k) {
-        const std::size_t next = k + 1 == count ? 0 : k + 1;
-        if (side[k] == 0)
-          ends[found++] = other.corners[k];
-        else if (side[k] * side[next] < 0)
-          ends[found++] = other.corners[k] + (other.corners[next] - other.corners[k]) *
-                                                 (side[k] / (side[k] - side[next]));
-      }
-      if (found == 2)
-        add(ends[0], ends[1], reach, on_front, on_back);
+      SideChange changes[2];
+      if (find_side_changes(side, changes))
+        add(point_of(other, changes[0]), point_of(other, changes[1]), reach, on_front, on_back);
       return;
     }
     for (std::size_t k = 0; k < count; ++k) {

@@ -129,15 +129,14 @@ void DiscontinuityMesher::for_each_patch(const DiscontinuityLine& line, Visit vi
     if (!is_lit(patch, line))
       continue;
     const double snap = snap_of(patch, line);
-    Vec3 patch_low = patches_.vertices[patches_.corners_of(patch)[0]], patch_high = patch_low;
-    for (const std::uint32_t corner : patches_.corners_of(patch)) {
-      patch_low = glm::min(patch_low, patches_.vertices[corner]);
-      patch_high = glm::max(patch_high, patches_.vertices[corner]);
+    bool is_near = false;
+    for (const PatchPiece& piece : facets_.pieces_of(patch)) {
+      bool overlaps = true;
+      for (int axis = 0; axis < 3; ++axis)
+        overlaps = overlaps && low[axis] <= piece.facet.high[axis] + snap &&
+                   piece.facet.low[axis] <= high[axis] + snap;
+      is_near = is_near || overlaps;
     }
-    bool is_near = true;
-    for (int axis = 0; axis < 3; ++axis)
-      is_near =
-          is_near && low[axis] <= patch_high[axis] + snap && patch_low[axis] <= high[axis] + snap;
     if (is_near)
       visit(patch, snap);
   }

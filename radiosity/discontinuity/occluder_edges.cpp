@@ -125,8 +125,7 @@ Status OccluderEdges::build(const SceneFacets& facets) {
                    [&](std::uint32_t a, std::uint32_t b) { return size(a) > size(b); });
   for (const std::uint32_t face : faces)
     add_edges(face);
-  add_corners();
-  return {};
+  return add_corners();
 }
 
 void OccluderEdges::measure() {
@@ -154,23 +153,19 @@ void OccluderEdges::add_edges(std::uint32_t f) {
   }
 }
 
-void OccluderEdges::add_corners() {
-  Buffer<Vec3> positions;
+Status OccluderEdges::add_corners() {
+  std::vector<Vec3> positions;
   Buffer<std::uint32_t> first;
-  std::vector<std::uint32_t> faces;
-  for (const OccluderEdge& edge : edges_) {
-    if (!positions.push_back(edge.begin).ok())
-      throw std::bad_alloc();
-    faces.push_back(edge.face);
-  }
-  if (!weld_positions(positions.span(), &first).ok())
-    throw std::bad_alloc();
-  for (std::size_t k = 0; k < faces.size(); ++k)
+  for (const OccluderEdge& edge : edges_)
+    positions.push_back(edge.begin);
+  HC_TRY(weld_positions(positions, &first));
+  for (std::size_t k = 0; k < edges_.size(); ++k)
     if (first[k] == k) {
-      OccluderCorner corner{faces[k], positions[k], {}};
+      OccluderCorner corner{edges_[k].face, positions[k], {}};
       find_touching(&corner);
       corners_.push_back(std::move(corner));
     }
+  return {};
 }
 
 void OccluderEdges::find_touching(OccluderEdge* edge) const {

@@ -31,6 +31,7 @@ struct OccluderCorner {
 class OccluderEdges {
 public:
   /// @param facets  outlive this
+  /// @return kOutOfMemory; what runs out in the C++ library's containers is thrown
   Status build(const SceneFacets& facets);
 
   const SceneFacets& facets() const noexcept { return *facets_; }
@@ -55,7 +56,7 @@ public:
 private:
   void measure();
   void add_edges(std::uint32_t face);
-  void add_corners();
+  Status add_corners();
   void find_touching(OccluderEdge* edge) const;
   void find_touching(OccluderCorner* corner) const;
 

@@ -76,50 +76,25 @@ bool PatchCutter::may_touch(const Cell& cell, const Line& line, double snap) con
   return any_left && any_right && any_after && any_before;
 }
 
-void PatchCutter::find_crossing(const Cell& cell, const Line& line, double snap,
+/// @return false if the line does not divide the cell
+bool PatchCutter::find_crossing(const Cell& cell, const Line& line, double snap,
                                 Crossing* crossing) const {
-  const std::size_t count = cell.size();
-  bool any_left = false, any_right = false;
-  crossing->side.resize(count);
-  crossing->along.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    double& side = crossing->side[k];
-    side = line.side(vertices_[cell[k]]);
-    if (side <= snap && side >= -snap)
-      side = 0;
-    any_left = any_left || side > 0;
-    any_right = any_right || side < 0;
-    crossing->along[k] = line.along(vertices_[cell[k]]);
+  std::vector<double> side;
+  for (const std::uint32_t vertex : cell) {
+    const double exact = line.side(vertices_[vertex]);
+    side.push_back(std::fabs(exact) <= snap ? 0 : exact);
   }
-  crossing->divides = false;
-  if (!any_left || !any_right)
-    return;
-  // The places where the side changes, in the order of corners: a convex cell has two.
-  double last_side = 0;
-  for (std::size_t k = count; k-- > 0 && last_side == 0;)
-    last_side = crossing->side[k];
-  std::size_t found[2] = {0, 0}, found_count = 0;
-  double at[2] = {0, 0};
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t next = next_of(k, count);
-    const double here = crossing->side[k], there = crossing->side[next];
-    const bool is_corner = here == 0;
-    last_side = is_corner ? last_side : here; // of the last corner off the line
-    if (there == 0 || (last_side > 0) == (there > 0))
-      continue;
-    if (found_count == 2)
-      return; // folded by rounding
-    found[found_count] = k;
-    const double share = is_corner ? 0 : here / (here - there);
-    at[found_count++] = crossing->along[k] + share * (crossing->along[next] - crossing->along[k]);
-  }
-  if (found_count != 2)
-    return;
-  crossing->first = found[0];
-  crossing->second = found[1];
-  crossing->begin = std::min(at[0], at[1]);
-  crossing->end = std::max(at[0], at[1]);
-  crossing->divides = true;
+  SideChange changes[2];
+  if (!find_side_changes(side, changes))
+    return false;
+  const auto along = [&](const SideChange& change) {
+    const double from = line.along(vertices_[cell[change.corner]]);
+    const double to = line.along(vertices_[cell[next_of(change.corner, cell.size())]]);
+    return from + change.share * (to - from);
+  };
+  const double first = along(changes[0]), second = along(changes[1]);
+  *crossing = {changes[0], changes[1], std::min(first, second), std::max(first, second)};
+  return true;
 }
 
 bool PatchCutter::has_resolved_area(const Cell& cell) const {
@@ -137,27 +112,19 @@ bool PatchCutter::cut_cell(std::uint32_t patch, std::size_t number, const Crossi
                            std::uint32_t ends[2]) {
   const Cell cell = cells_[patch][number];
   const std::size_t count = cell.size();
-  bool is_corner[2] = {false, false};
+  const SideChange changes[2] = {crossing.enters, crossing.leaves};
   for (const std::size_t e : {0u, 1u}) {
-    const std::size_t k = e == 0 ? crossing.first : crossing.second;
-    const double here = crossing.side[k], there = crossing.side[next_of(k, count)];
-    is_corner[e] = here == 0;
-    if (!is_corner[e]) {
-      // From the same end for both sides, so that the order of corners does not matter.
-      ends[e] = split_edge(cell[k], cell[next_of(k, count)], here / (here - there));
-    } else {
-      ends[e] = cell[k];
-    }
+    const auto [k, share] = changes[e];
+    ends[e] = share == 0 ? cell[k] : split_edge(cell[k], cell[next_of(k, count)], share);
   }
   Cell pieces[2];
   for (const std::size_t e : {0u, 1u}) {
-    const std::size_t from = e == 0 ? crossing.first : crossing.second;
-    const std::size_t to = e == 0 ? crossing.second : crossing.first;
+    const SideChange &from = changes[e], &to = changes[1 - e];
     pieces[e].push_back(ends[e]);
-    for (std::size_t k = next_of(from, count); k != to; k = next_of(k, count))
+    for (std::size_t k = next_of(from.corner, count); k != to.corner; k = next_of(k, count))
       pieces[e].push_back(cell[k]);
-    if (!is_corner[1 - e])
-      pieces[e].push_back(cell[to]);
+    if (to.share != 0)
+      pieces[e].push_back(cell[to.corner]);
     pieces[e].push_back(ends[1 - e]);
   }
   if (!has_resolved_area(pieces[0]) || !has_resolved_area(pieces[1]))
@@ -195,8 +162,7 @@ void PatchCutter::cut(std::uint32_t patch, const Vec3& begin, const Vec3& end, E
     if (!may_touch(cells_[patch][c], line, snap))
       continue;
     insert_hanging(&cells_[patch][c]);
-    find_crossing(cells_[patch][c], line, snap, &crossing);
-    if (!crossing.divides)
+    if (!find_crossing(cells_[patch][c], line, snap, &crossing))
       continue;
     const double overlap = std::min(crossing.end, line.length) - std::max(crossing.begin, 0.0);
     std::uint32_t ends[2];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/discontinuity/side_changes.h"
 #include "radiosity/discontinuity/split_edges.h"
 
 #include <span>
@@ -38,17 +39,14 @@ private:
 
   struct Line;
 
-  /// How a line meets a cell.
+  /// How a line meets a cell that it runs through.
   struct Crossing {
-    std::vector<double> side, along; ///< [corner] metres from the line and along it
-    double begin = 0, end = 0;       ///< of the chord
-    std::size_t first = 0,
-                second = 0; ///< where it enters and leaves: the corner, or the edge after
-    bool divides = false;
+    SideChange enters, leaves; ///< in the order of corners
+    double begin = 0, end = 0; ///< of the chord, metres along the line
   };
 
   bool may_touch(const Cell& cell, const Line& line, double snap) const;
-  void find_crossing(const Cell& cell, const Line& line, double snap, Crossing* crossing) const;
+  bool find_crossing(const Cell& cell, const Line& line, double snap, Crossing* crossing) const;
   bool cut_cell(std::uint32_t patch, std::size_t cell, const Crossing& crossing,
                 std::uint32_t ends[2]);
   void split_at(std::uint32_t a, std::uint32_t b, const Line& line, double along, double snap);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "radiosity/discontinuity/side_changes.h"
 #include "radiosity/form_factor/shaft.h"
 
 #include <algorithm>
@@ -38,6 +39,15 @@ inline SegmentPart part_over(const Facet& facet, const Vec3& begin, const Vec3& 
                        glm::dot(inwards, end - corner) + margin);
   }
   return part;
+}
+
+/// The point where the border of a facet changes sides.
+inline Vec3 point_of(const Facet& facet, const SideChange& change) noexcept {
+  const Vec3& corner = facet.corners[change.corner];
+  if (change.share == 0)
+    return corner;
+  const std::size_t next = change.corner + 1 == facet.corners.size() ? 0 : change.corner + 1;
+  return corner + (facet.corners[next] - corner) * change.share;
 }
 
 } // namespace hemicube::radiosity

@@ -43,7 +43,7 @@ void WedgeTracer::collect(bool before) {
   const Vec3 margin(edges_.facets().tolerance());
   const double shortest = std::min(glm::length(wedge_.first), glm::length(wedge_.second));
   const double far = 2 * glm::length(size) / shortest;
-  const double near_t = before ? (wedge_.apex_emits ? 0 : -1) : (wedge_.apex_emits ? 1 : 0);
+  const double near_t = wedge_.begin_t(before);
   const double far_t = before ? near_t + 1 : near_t + far;
   ConvexPolygon area;
   for (const double t : {near_t, far_t}) {
@@ -80,40 +80,30 @@ bool WedgeTracer::hit(std::uint32_t number, bool before, Hit* hit) const {
   const Facet& face = edges_.facets().face(number);
   const std::size_t count = face.corners.size();
   const double depth = edges_.depth(number);
-  // The segment that the face has in common with the plane of the wedge.
-  int found = 0;
-  Vec3 ends[2];
-  double last_side = 0;
-  const auto side_of = [&](std::size_t k) {
-    const double side = glm::dot(normal_, face.corners[k] - wedge_.apex);
-    return std::fabs(side) <= depth ? 0 : side;
-  };
-  for (std::size_t k = count; k-- > 0 && last_side == 0;)
-    last_side = side_of(k);
-  if (last_side == 0)
-    return false; // seen edge-on
+  // The segment that the face has in common with the plane of the wedge. A face with no more than
+  // an edge there is seen edge-on, or touched.
+  double side[OccluderFaces::kMostCorners];
   for (std::size_t k = 0; k < count; ++k) {
-    const double here = side_of(k), there = side_of(k + 1 == count ? 0 : k + 1);
-    const Vec3 &a = face.corners[k], &b = face.corners[k + 1 == count ? 0 : k + 1];
-    last_side = here != 0 ? here : last_side;
-    if (there == 0 && here == 0)
-      return false; // only an edge of it lies in the plane
-    if (there == 0 || (last_side > 0) == (there > 0))
-      continue;
-    if (found == 2)
-      return false;
-    ends[found++] = here == 0 ? a : a + (b - a) * (here / (here - there));
+    side[k] = glm::dot(normal_, face.corners[k] - wedge_.apex);
+    if (std::fabs(side[k]) <= depth)
+      side[k] = 0;
   }
-  if (found != 2)
+  for (std::size_t k = 0; k < count; ++k)
+    if (side[k] == 0 && side[k + 1 == count ? 0 : k + 1] == 0)
+      return false;
+  SideChange changes[2];
+  if (!find_side_changes({side, count}, changes))
     return false;
+  Vec3 ends[2];
+  for (int e = 0; e < 2; ++e)
+    ends[e] = point_of(face, changes[e]);
   for (int e = 0; e < 2; ++e) {
     hit->t[e] = glm::dot(dual_t_, ends[e] - wedge_.apex);
     hit->w[e] = glm::dot(dual_w_, ends[e] - wedge_.apex);
   }
   hit->face = number;
   // 0 <= u <= 1, and t in its range.
-  const double sign = before && !wedge_.apex_emits ? -1 : 1;
-  const double low = before ? (wedge_.apex_emits ? 0 : -1) : (wedge_.apex_emits ? 1 : 0);
+  const double sign = before && !wedge_.apex_emits ? -1 : 1, low = wedge_.begin_t(before);
   SegmentPart part;
   part.keep_positive(hit->t[0] - low - t_doubt_, hit->t[1] - low - t_doubt_);
   if (before)

@@ -22,6 +22,8 @@ struct Wedge {
   }
 
   Vec3 direction(double u) const { return first + u * (second - first); }
+  /// Where light starts, or where it has passed the border.
+  double begin_t(bool before) const { return (apex_emits ? 1 : 0) - (before ? 1 : 0); }
 };
 
 /// Follows wedges of light to the surfaces where they end. One per worker.
