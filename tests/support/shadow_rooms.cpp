@@ -1,5 +1,7 @@
 #include "tests/support/shadow_rooms.h"
 
+#include "tests/support/polygon_of.h"
+
 #include <cmath>
 
 namespace hemicube::test {
@@ -79,17 +81,6 @@ Scene random_box_room(std::uint32_t seed) {
   return builder.finish();
 }
 
-namespace {
-
-std::vector<Vec3> corners_of(const PatchSet& mesh, std::uint32_t patch) {
-  std::vector<Vec3> points;
-  for (const std::uint32_t corner : mesh.corners_of(patch))
-    points.push_back(mesh.vertices[corner]);
-  return points;
-}
-
-} // namespace
-
 bool is_hidden(const PatchSet& patches, const Vec3& from, const Vec3& to, double doubt) {
   for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
     const Vec3 &normal = patches.normal[p], &origin = patches.centre[p];
@@ -99,7 +90,7 @@ bool is_hidden(const PatchSet& patches, const Vec3& from, const Vec3& to, double
       continue;
     const Vec3 at = from + (to - from) * (side_from / (side_from - side_to));
     bool is_inside = true;
-    const std::vector<Vec3> points = corners_of(patches, p);
+    const std::vector<Vec3> points = polygon_of(patches, p);
     for (std::size_t k = 0; k < points.size() && is_inside; ++k)
       is_inside = glm::dot(normal, glm::cross(points[(k + 1) % points.size()] - points[k],
                                               at - points[k])) > 0;

@@ -3,6 +3,7 @@
 #include "radiosity/mesh/build_patches.h"
 #include "radiosity/mesh/openmesh_topology.h"
 #include "radiosity/mesh/polygon_shape.h"
+#include "tests/support/polygon_of.h"
 #include "tests/support/scenes_shared.h"
 
 #include <gtest/gtest.h>
@@ -12,13 +13,6 @@
 
 /// What every mesh of cut patches must be.
 namespace hemicube::test {
-
-inline std::vector<Vec3> polygon_of(const PatchSet& mesh, std::uint32_t patch) {
-  std::vector<Vec3> points;
-  for (const std::uint32_t corner : mesh.corners_of(patch))
-    points.push_back(mesh.vertices[corner]);
-  return points;
-}
 
 inline PatchSet fronts_of(const Scene& scene) {
   PatchSet patches;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "radiosity/refine/element_tree.h"
+#include "tests/support/polygon_of.h"
 #include "tests/support/scenes_shared.h"
 
 #include <gtest/gtest.h>
@@ -80,13 +81,6 @@ inline Scene with_own_vertices(Scene scene) {
   }
   require(scene.vertices.assign(std::span<const Vec3>(vertices)));
   return scene;
-}
-
-inline std::vector<Vec3> polygon_of(const PatchSet& mesh, std::uint32_t patch) {
-  std::vector<Vec3> points;
-  for (const std::uint32_t corner : mesh.corners_of(patch))
-    points.push_back(mesh.vertices[corner]);
-  return points;
 }
 
 } // namespace hemicube::test
