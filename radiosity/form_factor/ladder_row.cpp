@@ -360,12 +360,16 @@ void LadderRow::close(bool is_rendered, RowFacts* facts) {
 }
 
 RowView LadderRow::store() {
+  // What is left of 1 is known to 2^-53. Of a row that sees hardly anything the entries know more.
+  constexpr double kHardlyAnything = 0x1p-10;
   std::size_t count = 0;
+  double sum = 0;
   for (const std::uint32_t patch : touched_) {
     const double value = entries_[patch].proven + entries_[patch].estimated;
     entries_[patch] = {0, 0};
     columns_[count] = patch;
     values_[count] = static_cast<float>(value);
+    sum += value;
     count += values_[count] > 0 ? 1 : 0;
   }
   RowView row;
@@ -373,7 +377,7 @@ RowView LadderRow::store() {
   row.values = values_.span().first(count);
   row.space = space_;
   row.back_side = back_side_;
-  fit_scale(1 - space_ - back_side_, &row);
+  fit_scale(sum < kHardlyAnything ? sum : 1 - space_ - back_side_, &row);
   return row;
 }
 

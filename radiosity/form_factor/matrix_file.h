@@ -9,7 +9,7 @@ namespace hemicube::radiosity {
 
 /// To be raised with every change of results (where the golden hashes change): rows of two versions
 /// must not meet in one file.
-inline constexpr std::uint32_t kResultsVersion = 2;
+inline constexpr std::uint32_t kResultsVersion = 3;
 
 /// What a file of rows begins with: what it is, and all that decides what its rows are. Numbers are
 /// little-endian; what follows are the blocks of a RowStore and, in a finished .hcf, its end.

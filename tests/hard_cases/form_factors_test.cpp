@@ -176,12 +176,35 @@ TEST(HardCase, L11_ThinWire) {
     expect_within(level.name, pair_of("occ_thin_wire", level).absolute(), 3e-4);
 }
 
-// Catches: bands at the horizon thinner than a pixel.
+/// F of the unit square of z = 0 to an upright square of edge h, d away along x, whose lower edge
+/// is at z = h and which looks back at it: Simpson's rule of the kernel over both, far enough for
+/// it.
+static double far_and_low(double d, double h) {
+  constexpr double kAt[] = {0, 0.5, 1}, kWeight[] = {1. / 6, 4. / 6, 1. / 6};
+  double sum = 0;
+  for (int i = 0; i < 81; ++i) {
+    const int u = i % 3, v = i / 3 % 3, s = i / 9 % 3, t = i / 27;
+    const Vec3 way(d - kAt[u], h * kAt[s] - kAt[v], h + h * kAt[t]);
+    const double squared = glm::dot(way, way);
+    sum += kWeight[u] * kWeight[v] * kWeight[s] * kWeight[t] * way.z * way.x / (squared * squared);
+  }
+  return sum * h * h / radiosity::kPi;
+}
+
+// Catches: bands at the horizon thinner than a pixel, and small things in them.
 TEST(HardCase, L12_Grazing) {
   for (const LadderLevel& level : kAreaRungs) {
     const PairOfFactors pair = pair_of("coplanar_step_1e-3", level);
     expect_within(level.name + std::string(", relative"), pair.relative(), 1e-2);
     expect_within(level.name + std::string(", absolute"), pair.absolute(), 1e-6);
+    for (const auto& [d, h] : {std::pair(40., 0.1), {100., 1e-2}, {1e4, 1e-3}}) {
+      const PatchSet patches = patches_of({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                           {{d, 0, h}, {d, 0, 2 * h}, {d, h, 2 * h}, {d, h, h}}});
+      FormFactors factors;
+      compute_all(patches, level.options(kHardResolution), 1, &factors);
+      expect_within(level.name + std::string(", tiny and far"),
+                    std::fabs(entry(factors.matrix.row(0), 1) / far_and_low(d, h) - 1), 1e-2);
+    }
   }
 }
 
