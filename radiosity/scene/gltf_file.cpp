@@ -252,10 +252,8 @@ Status GltfFile::load_buffer_file(const JsonValue& uri, const std::string& what,
     return fields_.error(uri, what, ": ", in_quotes(uri.text), " is not the name of a file");
   const auto folder = std::filesystem::path(fields_.path()).parent_path();
   const std::string file = (folder / percent_decoded(uri.text)).lexically_normal().string();
-  std::error_code ignored; // what cannot be looked at does not exist for us
-  if (!std::filesystem::exists(file, ignored))
-    return fields_.error(uri, what, ": ", in_quotes(uri.text), " does not exist (looked for ", file,
-                         ")");
+  if (const std::string why = why_no_file(file); !why.empty())
+    return fields_.error(uri, what, ": ", in_quotes(uri.text), why, " (looked for ", file, ")");
   HC_TRY(read_file(file, bytes));
   report_->add_file(file);
   return {};

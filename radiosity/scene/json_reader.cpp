@@ -241,10 +241,9 @@ Status SceneFile::mesh(const JsonValue& value, const std::string& what) {
 
   const auto folder = std::filesystem::path(fields_.path()).parent_path();
   const std::string mesh_path = (folder / name).lexically_normal().string();
-  std::error_code ignored; // what cannot be looked at does not exist for us
-  if (!std::filesystem::exists(mesh_path, ignored))
-    return fields_.error(*file, what, ": file ", in_quotes(name), " does not exist (looked for ",
-                         mesh_path, ")");
+  if (const std::string why = why_no_file(mesh_path); !why.empty())
+    return fields_.error(*file, what, ": file ", in_quotes(name), why, " (looked for ", mesh_path,
+                         ")");
   FileMesh mesh;
   HC_TRY(read_mesh(mesh_path, &mesh, &report_));
   std::vector<std::uint32_t> numbers;

@@ -142,15 +142,14 @@ void MtlParser::count_skipped(ReadReport* report) const {
   skipped_.add_to(report, meaning);
 }
 
-/// The libraries one mtllib statement names, as paths that exist.
+/// The libraries one mtllib statement names, as paths of files.
 Status find_libraries(const std::string& obj_path, const FileMesh::Name& statement,
                       std::vector<std::string>* paths) {
   const auto resolved = [&](std::string_view name) {
     return (std::filesystem::path(obj_path).parent_path() / name).lexically_normal().string();
   };
-  std::error_code ignored; // what cannot be looked at does not exist for us
   const std::string whole = resolved(statement.text);
-  if (std::filesystem::exists(whole, ignored)) {
+  if (why_no_file(whole).empty()) {
     paths->push_back(whole);
     return {};
   }
@@ -158,10 +157,10 @@ Status find_libraries(const std::string& obj_path, const FileMesh::Name& stateme
   std::string_view word = next_word(&rest);
   do {
     paths->push_back(word.empty() ? whole : resolved(word));
-    if (!std::filesystem::exists(paths->back(), ignored))
+    if (const std::string why = why_no_file(paths->back()); !why.empty())
       return error_at(obj_path, statement.line, "material library ",
-                      in_quotes(word.empty() ? statement.text : word),
-                      " does not exist (looked for ", paths->back(), ")");
+                      in_quotes(word.empty() ? statement.text : word), why, " (looked for ",
+                      paths->back(), ")");
     word = next_word(&rest);
   } while (!word.empty());
   return {};

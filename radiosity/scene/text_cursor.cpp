@@ -55,19 +55,23 @@ std::string system_message(int code) {
 
 } // namespace
 
+std::string why_no_file(const std::string& path) {
+  std::error_code problem;
+  const auto type = std::filesystem::status(path, problem).type();
+  if (type == std::filesystem::file_type::not_found)
+    return " does not exist";
+  if (problem)
+    return " cannot be read: " + problem.message();
+  if (type == std::filesystem::file_type::regular)
+    return "";
+  return type == std::filesystem::file_type::directory ? " is a directory, not a file"
+                                                       : " is a pipe or device, not a file";
+}
+
 Status read_file(const std::string& path, std::string* bytes) {
   return without_exceptions(path, [&]() -> Status {
-    std::error_code problem;
-    const auto type = std::filesystem::status(path, problem).type();
-    if (type == std::filesystem::file_type::not_found)
-      return Status::error(StatusCode::kBadScene, path, ": no such file");
-    if (problem)
-      return Status::error(StatusCode::kBadScene, path, ": cannot be read: ", problem.message());
-    if (type != std::filesystem::file_type::regular)
-      return Status::error(StatusCode::kBadScene, path, ": is a ",
-                           type == std::filesystem::file_type::directory ? "directory"
-                                                                         : "pipe or device",
-                           ", not a file");
+    if (const std::string why = why_no_file(path); !why.empty())
+      return Status::error(StatusCode::kBadScene, path, ":", why);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
     if (file == nullptr)

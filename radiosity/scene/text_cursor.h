@@ -12,6 +12,10 @@ namespace hemicube::radiosity {
 
 // What the readers of line-based text (OBJ, MTL, PLY, OFF, STL) and of JSON share.
 
+/// Why a path cannot be read as a file, behind its name: " does not exist", " is a directory, not a
+/// file"; empty where nothing is in the way.
+std::string why_no_file(const std::string& path);
+
 /// Reads a whole file as it is, byte for byte.
 /// @return kBadScene if it is missing, unreadable or not a regular file (a directory, a pipe, a
 /// device

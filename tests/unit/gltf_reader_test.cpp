@@ -67,6 +67,9 @@ TEST_F(GltfReader, BuffersAreFilesDataOrAChunk) {
   std::filesystem::remove(path("my square.bin"));
   expect_refused("b.gltf",
                  "b.gltf:1: buffers[0].uri: 'my%20square.bin' does not exist (looked for ");
+  std::filesystem::create_directory(path("my square.bin"));
+  expect_refused("b.gltf",
+                 "b.gltf:1: buffers[0].uri: 'my%20square.bin' is a directory, not a file");
   json["buffers"][0]["uri"] = "https://example.org/a.bin";
   write("b.gltf", json.dump());
   expect_refused("b.gltf", "b.gltf:1: buffers[0].uri: 'https://example.org/a.bin' is not the name");

@@ -109,7 +109,7 @@ TEST_F(GltfRefusals, OtherVersionsAndRequiredExtensionsAreRefused) {
                "extensionsRequired: 'KHR_draco_mesh_compression' is not supported");
   write("a.gltf", "[]");
   expect_refused("a.gltf", "a.gltf:1: the file must be an object, not an array");
-  expect_refused("none.glb", "none.glb: no such file");
+  expect_refused("none.glb", "none.glb: does not exist");
 }
 
 TEST_F(GltfRefusals, GlbFilesThatAreNoneAreRefused) {

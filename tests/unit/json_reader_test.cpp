@@ -291,6 +291,8 @@ TEST_F(JsonReader, RefusesBadHeadersAndMeshes) {
     return head + "\"version\": 1, \"meshes\": [\n{\"file\": \"" + file + "\"}]}";
   };
   expect_error(with_file("none.obj"), 3, "mesh 0: file 'none.obj' does not exist (looked for ");
+  std::filesystem::create_directory(path("folder.obj"));
+  expect_error(with_file("folder.obj"), 3, "mesh 0: file 'folder.obj' is a directory, not a file");
   expect_error(with_file("a.mtl"), 3, "mesh 0: file 'a.mtl' is not named .obj, .ply, .off or .stl");
   expect_error(with_file("a.obj\\u0000.obj"), 3, "must not hold control characters");
 }
@@ -331,7 +333,7 @@ TEST_F(JsonReader, ErrorsInAMeshNameTheObj) {
   expect_refused("s.json", "a.obj:2: vertex coordinate 'nan' is not a finite number");
   write("a.obj", "v 0 0 0\n");
   expect_refused("s.json", "a.obj: the scene has no faces");
-  expect_refused("none.json", "none.json: no such file");
+  expect_refused("none.json", "none.json: does not exist");
 }
 
 TEST_F(JsonReader, RefusesWhatIsNotJson) {

@@ -138,7 +138,16 @@ TEST_F(MtlReader, RefusesMissingLibrariesAndMaterials) {
 TEST_F(MtlReader, RefusesPipesInsteadOfWaiting) {
   ASSERT_EQ(::mkfifo(path("pipe.mtl").c_str(), 0600), 0);
   write("a.obj", obj("mtllib pipe.mtl\n", {"red"}));
-  expect_refused("a.obj", "pipe.mtl: is a pipe or device, not a file");
+  expect_refused("a.obj", "a.obj:1: material library 'pipe.mtl' is a pipe or device, not a file");
+}
+
+// Catches: a message about a folder that does not say which line named it.
+TEST_F(MtlReader, RefusesFoldersWithTheLineThatNamesThem) {
+  for (const std::string folder : {".", "..", "../..", "/"}) {
+    write("a.obj", obj("# c\nmtllib " + folder + "\n", {"red"}));
+    expect_refused("a.obj", "a.obj:2: material library '" + folder +
+                                "' is a directory, not a file (looked for ");
+  }
 }
 
 TEST_F(MtlReader, LongPathsAndNamesOnlyCutTheMessage) {

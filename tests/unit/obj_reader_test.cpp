@@ -194,7 +194,7 @@ TEST_F(ObjReader, RefusesWhatIsNoObjFile) {
     write("a.obj", text);
     expect_refused("a.obj", "a.obj: the scene has no faces");
   }
-  expect_refused("missing.obj", "missing.obj: no such file");
+  expect_refused("missing.obj", "missing.obj: does not exist");
   std::filesystem::create_directory(path("folder.obj"));
   expect_refused("folder.obj", "folder.obj: is a directory");
   expect_refused("a.txt", "a.txt: a scene is read from a file named .json, .gltf, .glb, .obj, ");
