@@ -72,6 +72,12 @@ std::vector<std::string> warnings(const LoadedScene& loaded) {
   faces(mesh.duplicate_faces, "with the vertices of an earlier face: kept");
   faces(mesh.non_manifold_faces,
         "on an edge that more than two share or with opposite orientation: kept");
+  // Areas are then off by up to twice that, 1/50 of what is asked for by default.
+  constexpr double kCoarse = 1e-4;
+  if (loaded.read.float_grid_step > kCoarse)
+    lines.push_back(concat("coordinates are rounded to 32-bit floats, which are ",
+                           loaded.read.float_grid_step,
+                           " of a mesh's size apart where it stands: save it nearer to 0"));
   const DiscontinuityReport& cut = loaded.discontinuities;
   const auto beyond = [&lines](std::uint64_t count, const char* what, std::uint64_t limit) {
     if (count != 0)

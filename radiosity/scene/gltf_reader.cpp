@@ -192,6 +192,7 @@ Status GltfScene::vertices(const GltfNode& node, const JsonValue& primitive,
     const std::size_t first = mesh_.vertices.size();
     HC_TRY(read_positions(&file_, accessor, &mesh_.vertices));
     const auto added = mesh_.vertices.span().subspan(first);
+    report_.add_float_grid(added);
     if (!place_vertices(node.placement, added))
       return fields_.error(*node.value, node.what, ": its transform makes a coordinate too large");
     entry->second = {static_cast<std::uint32_t>(first), added.size()};

@@ -15,7 +15,7 @@ bool is_mesh_file(std::string_view path) {
   return false;
 }
 
-Status read_mesh(const std::string& path, FileMesh* mesh, ReadReport* report) {
+static Status read_by_name(const std::string& path, FileMesh* mesh, ReadReport* report) {
   if (has_extension(path, ".ply"))
     return read_ply(path, mesh, report);
   if (has_extension(path, ".off"))
@@ -23,6 +23,12 @@ Status read_mesh(const std::string& path, FileMesh* mesh, ReadReport* report) {
   if (has_extension(path, ".stl"))
     return read_stl(path, mesh, report);
   return read_obj(path, mesh, report);
+}
+
+Status read_mesh(const std::string& path, FileMesh* mesh, ReadReport* report) {
+  HC_TRY(read_by_name(path, mesh, report));
+  report->add_float_grid(mesh->vertices.span());
+  return {};
 }
 
 } // namespace hemicube::radiosity

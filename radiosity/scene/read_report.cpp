@@ -1,5 +1,7 @@
 #include "radiosity/scene/read_report.h"
 
+#include "radiosity/scene/float_grid.h"
+
 #include <algorithm>
 
 namespace hemicube::radiosity {
@@ -7,6 +9,10 @@ namespace hemicube::radiosity {
 void ReadReport::add_file(const std::string& path) {
   if (std::find(files.begin(), files.end(), path) == files.end())
     files.push_back(path);
+}
+
+void ReadReport::add_float_grid(std::span<const Vec3> vertices) {
+  float_grid_step = std::max(float_grid_step, radiosity::float_grid_step(vertices));
 }
 
 void KeywordCounts::count(std::string_view keyword, std::uint64_t times) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "raster/math.h"
+
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +15,13 @@ namespace hemicube::radiosity {
 struct ReadReport {
   std::map<std::string, std::uint64_t> skipped; ///< statements by reason, as in "textures (map_Kd)"
   std::uint64_t faces_without_material = 0;     ///< they got reflectance 0.5
+  double float_grid_step = 0;                   ///< the coarsest of the meshes (float_grid.h)
   std::vector<std::string> files;               ///< every file read, once, in order
 
   void add_file(const std::string& path);
+
+  /// Of vertices as a file has them, before they are moved.
+  void add_float_grid(std::span<const Vec3> vertices);
 };
 
 /// Counts statements that are read over, by keyword.

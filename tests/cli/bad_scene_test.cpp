@@ -111,6 +111,20 @@ TEST_F(BadSceneTest, WhatIsReadOverIsCounted) {
   EXPECT_EQ(run(0, {"solve", scene, "--quiet"}).err, "");
 }
 
+// All coordinates of the cube at 10^6 are 32-bit floats as well, which are 1/16 apart there.
+TEST_F(BadSceneTest, CoordinatesRoundedToFloatsAreNamed) {
+  std::string far;
+  for (const std::string& line : lines_of(std::string(kRoomObj)))
+    far += line.starts_with("v 0") || line.starts_with("v 1") ? "v 100000" + line.substr(2) + "\n"
+                                                              : line + "\n";
+  const ProgramResult result = run(0, {"info", write_room(far)});
+  EXPECT_NE((result.out + result.err).find("rounded to 32-bit floats, which are 0.06"),
+            std::string::npos)
+      << result.out << result.err;
+  const ProgramResult near = run(0, {"info", write_room(kRoomObj)});
+  EXPECT_EQ((near.out + near.err).find("32-bit"), std::string::npos) << near.out << near.err;
+}
+
 TEST_F(BadSceneTest, ControlCharactersInNamesStayOutOfMessages) {
   const ProgramResult result = run(3, {"solve", path("two\nlines\x1b[2J.obj")});
   EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
