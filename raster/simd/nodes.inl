@@ -208,7 +208,9 @@ static inline bool is_hidden(const PolygonBatch* batch, int p, const WindowPlane
       const int32_t column =
           per_pixel > 0 ? smaller(x_last, ((x + 1) << shift) - 1) : larger(x_begin, x << shift);
       const auto depth = static_cast<float>(at_corner + per_row * row + per_pixel * column);
-      const float nearest = depth < batch->nearest[p] ? depth : batch->nearest[p];
+      // Within the bounds that pixels are drawn with: at depth 0 an empty pixel hides nothing.
+      const float least = depth < batch->nearest[p] ? depth : batch->nearest[p];
+      const float nearest = least > 0 ? least : 0;
       if (!tile_hides(planes, x, y, nearest))
         return false;
     }
