@@ -132,6 +132,7 @@ void Grouper::try_sorted(Range group, int axis, Division* best) const {
   sum = Sum();
   for (std::size_t k = 1; k < group.size(); ++k) {
     sum.add(polygons_[group[k - 1]]);
+    // cppcheck-suppress uninitvar ; the loop above ran over the same k
     if (const double cost = sum.cost() + costs[k]; cost < best->cost)
       *best = {Division::kSorted, axis, k, cost};
   }

@@ -172,6 +172,7 @@ private:
     for (std::size_t k = 0; k < sizeof(Stored); ++k)
       raw[k] = bytes_[at_ + (swap_ ? sizeof(Stored) - 1 - k : k)];
     Stored stored;
+    // cppcheck-suppress uninitvar ; Stored has bytes
     std::memcpy(&stored, raw, sizeof stored);
     *value = static_cast<Value>(stored);
     at_ += sizeof(Stored);
