@@ -5,6 +5,7 @@
 #include "bench/machine.h"
 #include "radiosity/radiosity.h"
 #include "raster/kernels.h"
+#include "tests/support/drawn_face.h"
 #include "tests/support/one_point.h"
 
 #include <algorithm>
@@ -125,10 +126,9 @@ int main(int argc, char** argv) {
       std::map<std::string, std::uint64_t> hashes;
       FormFactorMatrix matrix;
       for (int k = 0; k < repetitions; ++k)
-        for (const char* isa : {"scalar", "sse41", "avx2", "avx512"})
-          if (const raster::Kernels* kernels = raster::kernels_by_name(isa))
-            seconds[isa].push_back(
-                compute(patches, rows, resolution, *kernels, &matrix, &hashes[isa]));
+        for (const std::string& isa : test::kernels_here())
+          seconds[isa].push_back(compute(patches, rows, resolution, *raster::kernels_by_name(isa),
+                                         &matrix, &hashes[isa]));
       const double error = rms(dense_rows(matrix), reference);
       for (auto& [isa, times] : seconds) {
         if (hashes[isa] != hashes.begin()->second) {

@@ -4,6 +4,7 @@
 #include "raster/item_buffer.h"
 #include "raster/polygon_tree.h"
 #include "raster/simd/dispatch.h"
+#include "tests/support/drawn_face.h"
 #include "tests/support/scenes_shared.h"
 
 #include <benchmark/benchmark.h>
@@ -150,10 +151,8 @@ void take_runs(benchmark::State& state, const Kernels& kernels) {
 } // namespace
 
 int main(int argc, char** argv) {
-  for (const char* isa : {"scalar", "sse41", "avx2", "avx512"}) {
+  for (const std::string& isa : hemicube::test::kernels_here()) {
     const Kernels* kernels = kernels_by_name(isa);
-    if (kernels == nullptr)
-      continue;
     const auto add = [&](const char* name, void (*run)(benchmark::State&, const Kernels&)) {
       return benchmark::RegisterBenchmark(
           (std::string(name) + "/" + isa).c_str(),

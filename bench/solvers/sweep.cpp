@@ -3,6 +3,7 @@
 #include "radiosity/solve/gauss_seidel.h"
 #include "raster/kernels.h"
 #include "raster/simd/dispatch.h"
+#include "tests/support/drawn_face.h"
 #include "tests/support/scenes_shared.h"
 
 #include <algorithm>
@@ -118,15 +119,12 @@ bool time_case(const Case& test, int repetitions, Tables* tables) {
     std::vector<std::vector<std::uint32_t>> targets;
     for (int k = 0; k < repetitions; ++k) {
       copy.push_back(time_copy(test.matrix, pool, &targets));
-      for (const char* isa : {"scalar", "sse41", "avx2", "avx512"}) {
-        const raster::Kernels* kernels = raster::kernels_by_name(isa);
-        if (kernels == nullptr)
-          continue;
+      for (const std::string& isa : test::kernels_here()) {
         read.push_back(time_read(test.matrix, pool));
         SolverOptions options;
         options.tolerance = 1e-300;
         options.max_sweeps = kSweeps;
-        options.kernels = kernels;
+        options.kernels = raster::kernels_by_name(isa);
         SweepClock clock;
         Buffer<double> b, h;
         Convergence convergence;
