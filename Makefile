@@ -92,9 +92,11 @@ determinism-quick: deps deps-check ## the same with the build folder's compiler,
 	$(call hashes,g++-O0,-DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Debug)
 	$(call hashes,clang++-O3,-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release)
 
+# vptr asks for the type information that the core is built without.
 sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake -S . -B $(BUILD)/sanitize -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
-	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1"
+	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined \
+	    -fno-omit-frame-pointer -g1"
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
 	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
