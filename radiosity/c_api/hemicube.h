@@ -1,9 +1,10 @@
 /* hemicube: diffuse form factors and radiosity, for C99 and whatever calls C.
  *
- *   hc_scene_desc desc = {.struct_size = sizeof desc}; ...     arrays in: vertices, polygons,
- * materials hc_scene* scene; if (hc_scene_create(&desc, &scene) != HC_OK) puts(hc_error_text());
+ *   hc_scene_desc desc = {.struct_size = sizeof desc, .vertices = ...};
+ *   hc_scene* scene;
  *   hc_solution* solution;
- *   int status = hc_solve(scene, NULL, NULL, &solution);   light on every patch
+ *   if (hc_scene_create(&desc, &scene) != HC_OK || hc_solve(scene, NULL, NULL, &solution) != HC_OK)
+ *     puts(hc_error_text());
  *
  * What holds for every call:
  * - It returns HC_OK or what went wrong, and hc_error_text says it in words. Arguments are checked:
@@ -12,8 +13,8 @@
  * - A pointer must not be NULL unless its description says that it may be.
  * - Arrays are the caller's. They are read or filled during the call, never kept.
  * - A handle is made by a call whose name ends in _create or by hc_solve, and belongs to the caller
- *   until it is given to the _release of its kind, once. Handles keep what they need of others:
- * they may be released in any order. After an error the handle is NULL, unless said otherwise.
+ *   until it is given to the _release of its kind, once. Handles keep what they need of others, and
+ *   may be released in any order. After an error the handle is NULL, unless said otherwise.
  * - Any thread may call anything at any time, with the same handles too; but what is set for the
  *   whole process (hc_set_...) is set before other calls, and a handle's last release comes last.
  * - Structs begin with their size in bytes, which the caller sets; all else 0 is the default. Later
@@ -192,7 +193,7 @@ typedef struct hc_options {
   size_t struct_size;
   int32_t rung;              /* HC_RUNG_... */
   uint32_t resolution;       /* pixels along the hemicube's edge, even, 16..2048; 0: chosen to meet
-                                `error`;       256 at points */
+                                `error`, 256 at points */
   double error;              /* wanted, relative RMS of B (of F without light), 0..1; 0: 0.01 */
   double tolerance;          /* relative error of B that the solver may leave, 0..1; 0: 1e-6 */
   uint64_t max_sweeps;       /* 0: 1000000 */
@@ -202,14 +203,14 @@ typedef struct hc_options {
   int32_t no_black_irradiance; /* 1: not of patches that reflect nothing: NaN */
   double stop_unshot; /* progressive: stop at this share of unshot light, 0..1; 0: see README */
   uint64_t max_shots; /* progressive; 0: no limit */
-  const char* isa;    /* "scalar", "sse41", "avx2", "avx512"; NULL: the best there is */
+  const char* isa;    /* "scalar", "sse41", "avx2", "avx512", "neon", "wasm"; NULL: the best */
   uint32_t threads;   /* workers, the caller included, at most 1024; 0: one per core */
   const hc_executor* executor; /* NULL: threads of the library's */
   /* NULL, or told how far a call is: from any worker, never twice at once.
    * @return not 0: the call ends with HC_CANCELLED */
   int (*progress)(void* context, const hc_progress* progress);
-  /* NULL, or asked often whether to stop, by any worker, several at once; @return not 0: as above
-   */
+  /* NULL, or asked often whether to stop, by any worker, several at once.
+   * @return not 0: as of progress */
   int (*is_cancelled)(void* context);
   void* context; /* of the two; may be NULL */
 } hc_options;
@@ -238,8 +239,7 @@ typedef struct hc_certificate {
   uint64_t scene_hash, form_factor_hash, radiosity_hash; /* as the program prints them */
 } hc_certificate;
 
-/* ---- Form factors: row i holds the shares F_ij of the light leaving i that arrive at patches j
- * ---- */
+/* ---- Form factors: of the light leaving i the share F_ij arrives at patch j ---- */
 
 typedef struct hc_form_factors hc_form_factors;
 
@@ -304,8 +304,8 @@ typedef struct hc_solution hc_solution;
 
 /* The light on every patch.
  * @param form_factors  NULL: computed on the way, only what is needed of them. Or those of all
- * patches of a scene with the same polygons; rung and resolution of the options are then not looked
- * at
+ *                      patches of a scene with the same polygons: rung and resolution of the
+ *                      options are then not looked at
  * @param options       NULL: all defaults
  * Errors: as of rows; HC_SINGULAR; HC_NOT_CONVERGED: the solution is there all the same. */
 HC_API int hc_solve(hc_scene* scene, const hc_form_factors* form_factors, const hc_options* options,
