@@ -8,7 +8,8 @@
 
 namespace hemicube::test {
 
-/// Makes numbers of the bytes of a case, one after the other; 0 beyond the end.
+/// Makes numbers of the bytes of a case, one after the other; 0 beyond the end. Two calls in one
+/// expression would be made in an order of the compiler's, and a case be another with each.
 class ByteReader {
 public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -44,6 +45,11 @@ public:
     const auto number = [&] { return is_coarse ? coarse() : fine(); };
     const double x = number(), y = number(), z = number();
     return {x, y, z};
+  }
+
+  Vec3 tiny_point() {
+    const Vec3 at = point();
+    return at * tiny();
   }
 
 private:

@@ -20,7 +20,7 @@ Polygon decode_polygon(ByteReader* bytes) {
     return random_ngon(random, 3 + static_cast<int>(bytes->below(12)), at, size);
   }
   const Vec3 u = bytes->point() * size;
-  const Vec3 v = bytes->point() * (kind == 2 ? size * bytes->tiny() : size); // 2: a sliver
+  const Vec3 v = (kind == 2 ? bytes->tiny_point() : bytes->point()) * size; // 2: a sliver
   if (kind == 3)
     return {at, at + u, at + v};
   const double top = kind == 4 ? bytes->share() : 1; // 4: a trapezoid
@@ -45,7 +45,7 @@ Polygon decode_neighbour(ByteReader* bytes, const Polygon& of) {
     return moved;
   }
   case 3: { // over it
-    const Vec3 shift = bytes->point() * bytes->tiny();
+    const Vec3 shift = bytes->tiny_point();
     Polygon moved = reversed(of);
     for (Vec3& corner : moved)
       corner += shift;

@@ -84,7 +84,8 @@ void Decoder::decode_place() {
   static constexpr double kScales[] = {1, 1, 1, 1e-30, 1e29, 0x1p-90, 1e6, 1e-6};
   scale_ = kScales[bytes_.below(8)];
   static constexpr double kOffsets[] = {0, 0, 1, 1e3, 1e6, 1e9};
-  view.eye = bytes_.point() * (scale_ * kOffsets[bytes_.below(6)]);
+  const Vec3 eye = bytes_.point();
+  view.eye = eye * (scale_ * kOffsets[bytes_.below(6)]);
 }
 
 std::vector<Vec3> Decoder::copy_of_an_earlier_one() {
@@ -96,7 +97,8 @@ std::vector<Vec3> Decoder::copy_of_an_earlier_one() {
     polygon = reversed(polygon);
   polygon = turned(polygon, static_cast<int>((how >> 1) % polygon.size()));
   // Nearer or farther by nothing, by a last bit, or by more.
-  const double by = bytes_.tiny() * bytes_.tiny() * bytes_.coarse();
+  const double tiny = bytes_.tiny(), tinier = tiny * bytes_.tiny();
+  const double by = tinier * bytes_.coarse();
   for (Vec3& corner : polygon)
     corner = corner * (1 + by);
   return polygon;
@@ -105,7 +107,8 @@ std::vector<Vec3> Decoder::copy_of_an_earlier_one() {
 /// Its plane holds the eye, or passes it closely.
 std::vector<Vec3> Decoder::edge_on() {
   const Vec3 a = bytes_.point(), b = bytes_.point();
-  const Vec3 off = bytes_.point() * (bytes_.tiny() * bytes_.tiny());
+  const Vec3 tiny = bytes_.tiny_point();
+  const Vec3 off = tiny * bytes_.tiny();
   const double near = bytes_.tiny();
   return {a * near + off, b * near + off, b + off, a + off};
 }
@@ -130,11 +133,12 @@ std::vector<Vec3> Decoder::decode_polygon() {
   case 2: { // with many corners
     Random random(bytes_.byte());
     const int corners = 3 + static_cast<int>(bytes_.below(38));
-    return random_ngon(random, corners, bytes_.point(), 2 * bytes_.tiny());
+    const Vec3 at = bytes_.point();
+    return random_ngon(random, corners, at, 2 * bytes_.tiny());
   }
   case 3: { // a sliver
     const Vec3 at = bytes_.point(), u = bytes_.point();
-    const Vec3 v = bytes_.point() * bytes_.tiny();
+    const Vec3 v = bytes_.tiny_point();
     return {at, at + u, at + u + v, at + v};
   }
   case 4:
@@ -151,7 +155,7 @@ std::vector<Vec3> Decoder::decode_polygon() {
   }
   case 7: { // around the eye
     const Vec3 u = bytes_.point(), v = bytes_.point();
-    const Vec3 off = bytes_.point() * bytes_.tiny();
+    const Vec3 off = bytes_.tiny_point();
     return {off - u - v, off + u - v, off + u + v, off - u + v};
   }
   case 8: { // repeated vertices
@@ -164,12 +168,13 @@ std::vector<Vec3> Decoder::decode_polygon() {
   }
   case 9: { // huge beside the others
     const Vec3 at = bytes_.point(), v = bytes_.point();
-    const Vec3 u = bytes_.point() / (bytes_.tiny() + 0x1p-40);
+    const Vec3 way = bytes_.point();
+    const Vec3 u = way / (bytes_.tiny() + 0x1p-40);
     return {at, at + u, at + u + v, at + v};
   }
   case 10: { // tiny beside the others, perhaps close
-    const double small = bytes_.tiny() * bytes_.tiny();
-    const Vec3 at = bytes_.point() * bytes_.tiny(), u = bytes_.point() * small;
+    const double tiny = bytes_.tiny(), small = tiny * bytes_.tiny();
+    const Vec3 at = bytes_.tiny_point(), u = bytes_.point() * small;
     const Vec3 v = bytes_.point() * small;
     return {at, at + u, at + v};
   }
