@@ -68,6 +68,7 @@ struct WindowProblem {
   double x0, dx, y0, dy;                 ///< PixelGrid
   double columns_per_x, rows_per_y;      ///< 1/dx, 1/dy
   double x_begin, x_end, y_begin, y_end; ///< pixels of the grid
+  double unit;                ///< a power of 2: times this, coordinates are at most about 1
   double x_reach, y_reach;    ///< bounds of |x| and |y| over the grid, for the error of a depth
   double edge_on_to_eye;      ///< larger squares of distances per unit of normal are not edge-on
   double edge_on_to_receiver; ///< nor are larger heights above the receiver's plane

@@ -12,6 +12,13 @@ namespace {
 /// further from the eye than the scene is large cannot be reached.
 constexpr double kBoxSlack = 0x1p-19;
 
+/// The power of 2 that brings x > 0 into [1, 2), as far as it is a float: the depths of scenes so
+/// small that it would not be are none either.
+double unit_of(double x) {
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) & std::uint64_t{0x7ff} << 52;
+  return std::min(std::bit_cast<double>((std::uint64_t{2046} << 52) - exponent), 0x1p126);
+}
+
 void copy(const Vec3& from, double to[3]) {
   for (int k = 0; k < 3; ++k)
     to[k] = from[k];
@@ -78,6 +85,7 @@ void Rasterizer::set_window(Face face, const PixelGrid& grid, const Window& wind
   const double reach = 1.001 * farthest_; // beyond rounding
   p.edge_on_to_eye = kThroughEye * kThroughEye * reach * reach;
   p.edge_on_to_receiver = kEdgeOn * reach;
+  p.unit = unit_of(farthest_);
   copy(eye, n.eye);
   n.slack = static_cast<float>(kBoxSlack * farthest_);
   for (int k = 0; k < 3; ++k)

@@ -55,6 +55,7 @@ public:
     window.dx = grid.dx;
     window.y0 = grid.y0;
     window.dy = grid.dy;
+    window.unit = 1;
     window.columns_per_x = 1 / grid.dx;
     window.rows_per_y = 1 / grid.dy;
     window.x_end = window.y_end = 256;

@@ -3,7 +3,8 @@
 /// Rounding cannot carry an edge further than this, in pixels, past the ends of its projection.
 constexpr float kPixelMargin = 0x1p-4f;
 
-/// Nearer corners are not projected: single precision would divide by nothing.
+/// Nearer corners, in units of the farthest, are not projected: single precision would divide by
+/// nothing.
 constexpr float kLeastDepth = 1e-30f;
 
 /// A crossing that bounds nothing.
@@ -23,7 +24,8 @@ struct CornerSummary {
   D highest; ///< above the receiver's plane
 };
 
-/// Moves corners into the frame of the window: [corner][axis][kBatch], and the same rounded.
+/// Moves corners into the frame of the window: [corner][axis][kBatch], and the same in units of the
+/// window, rounded.
 static inline CornerSummary move_corners(const double* corners, int32_t corner_count,
                                          const WindowProblem* w, double* moved, float* rounded) {
   CornerSummary s = {d_set(kNowhere), d_set(-kNowhere), d_set(-kNowhere)};
@@ -36,7 +38,7 @@ static inline CornerSummary move_corners(const double* corners, int32_t corner_c
       v[axis] = d_dot(x, y, z, d_set(w->frame[axis][0]), d_set(w->frame[axis][1]),
                       d_set(w->frame[axis][2]));
       d_store(moved + axis * kBatch, v[axis]);
-      d_store_float(rounded + axis * kBatch, v[axis]);
+      d_store_float(rounded + axis * kBatch, d_mul(v[axis], d_set(w->unit)));
     }
     s.z_low = d_min(v[2], s.z_low);
     s.z_high = d_max(v[2], s.z_high);
@@ -139,6 +141,7 @@ static inline uint32_t project(const float* rounded, int32_t corner_count, const
           x_end = f_set(static_cast<float>(w->x_end));
   const F y_begin = f_set(static_cast<float>(w->y_begin)),
           y_end = f_set(static_cast<float>(w->y_end));
+  const F unit = f_set(static_cast<float>(w->unit));
   uint32_t found = 0;
   for (int first = 0; first < kBatch; first += kFloats) {
     M known = m_from_bits(in_front >> first & ((1u << kFloats) - 1));
@@ -173,7 +176,7 @@ static inline uint32_t project(const float* rounded, int32_t corner_count, const
     // No pixel is nearer than the nearest corner but for rounding, which in the plane of a polygon
     // seen at a grazing angle can be anything.
     f_store(batch->nearest + first,
-            f_select(known, f_mul(nearest, f_set(1 + 0x1p-16f)), f_set(3e38f)));
+            f_select(known, f_mul(f_mul(nearest, f_set(1 + 0x1p-16f)), unit), f_set(3e38f)));
   }
   for (int first = 0; first < kBatch; first += kDoubles) {
     d_store(batch->x_first + first, d_load_int(batch->x_begin + first));

@@ -87,6 +87,32 @@ TEST_P(RasterCases, WindowsDoNotChangeABit) {
     }
 }
 
+// The cases stand 1e-3 to 1e6 from the origin: all coordinates stay within what readers let
+// through. Catches: bounds in metres, and single precision that overflows or loses small numbers.
+TEST_P(RasterCases, PowersOfTwoChangeOnlyTheUnitOfDepth) {
+  const RasterCase scene = GetParam()();
+  for (const double factor : {0x1p-100, 0x1p-60, 0x1p70}) {
+    const PolygonSet scaled = transformed(scene.polygons, factor, {0, 0, 0});
+    for (const std::string& isa : kernels_here()) {
+      Drawer drawer(scene.polygons.view(), *raster::kernels_by_name(isa));
+      Drawer other(scaled.view(), *raster::kernels_by_name(isa));
+      for (View view : scene.views) {
+        drawer.begin(view);
+        view.eye *= factor;
+        other.begin(view);
+        for (const Face face : kFaces) {
+          const auto grid = raster::hemicube_grid(face, 64);
+          DrawnFace expected = drawer.draw(face, grid);
+          for (float& depth : expected.depths)
+            depth /= static_cast<float>(factor);
+          EXPECT_TRUE(same_bits(expected, other.draw(face, grid)))
+              << scene.name << ", " << isa << ", times " << factor;
+        }
+      }
+    }
+  }
+}
+
 // Catches: results that depend on drawing order: accumulation, ties broken by "last one wins".
 TEST_P(RasterCases, OrderOfPolygonsChangesOnlyTheirIds) {
   const RasterCase scene = GetParam()();
