@@ -1,5 +1,7 @@
 #include "radiosity/form_factor/visible_share.h"
 
+#include "radiosity/elementary.h"
+
 #include <cmath>
 
 namespace hemicube::radiosity {
@@ -46,6 +48,20 @@ double ShareIntegrator::Totals::share(double whole) const noexcept {
   else
     share = (seen + open_visible) / whole;
   return share < 0 ? 0 : share > 1 ? 1 : share;
+}
+
+void ShareIntegrator::Sums::add(const Sums& part) noexcept {
+  whole += part.whole;
+  visible += part.visible;
+  least = part.least < least ? part.least : least;
+  most = part.most > most ? part.most : most;
+}
+
+double ShareIntegrator::missed_per_whole(const Sums& sums, double whole) const noexcept {
+  if (!(sums.most > sums.least && sums.whole > 0))
+    return 0;
+  const double missed = std::fabs(sums.whole - whole) / all_;
+  return (missed < 1 ? missed : 1) / sums.whole;
 }
 
 Status ShareIntegrator::init(std::uint32_t face_count, double tolerance) {
@@ -166,15 +182,17 @@ Status ShareIntegrator::narrow(const Cell& cell, Range blockers, Range* narrowed
 }
 
 /// Adds the integral over a cell, whose points are `sums`, to `refined`.
+/// @param missed  what its points may have missed: see missed_per_whole
 /// @param budget  points that may be spent; quarters that need more share it evenly
-Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance,
-                               double budget, Totals* refined, double* error) {
+Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sums, double missed,
+                               double tolerance, double budget, Totals* refined, double* error) {
   const double part = sums.whole / all_;
   const double kink = sums.kink() / all_;
-  if ((kink <= tolerance && part <= largest_part_) || budget < 16) {
+  const double unsure = max_number(kink, missed);
+  if ((unsure <= tolerance && part <= largest_part_) || budget < 16) {
     refined->open += sums.whole;
     refined->open_visible += sums.visible;
-    *error += kink;
+    *error += unsure;
     return {};
   }
   Cell quarters[4];
@@ -182,7 +200,7 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
   Range narrowed[4];
   Fate fates[4];
   const std::size_t blockers_before = blockers_.size();
-  double rest = 0;
+  double rest = 0, open = 0;
   for (int k = 0; k < 4; ++k) {
     const double half = cell.size / 2;
     quarters[k] = {cell.corners, cell.u + (k % 2) * half, cell.v + (k / 2) * half, half};
@@ -191,14 +209,16 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
     HC_TRY(sample(quarters[k], is_open ? narrowed[k] : Range(), false, &parts[k]));
     if (fates[k] == Fate::kHidden)
       parts[k].visible = parts[k].least = parts[k].most = 0;
-    all.whole += parts[k].whole;
-    all.visible += parts[k].visible;
+    all.add(parts[k]);
+    open += is_open ? parts[k].whole : 0;
     rest = parts[k].kink() / all_ > rest ? parts[k].kink() / all_ : rest;
   }
   const double coarse = sums.whole > 0 ? sums.visible / sums.whole : 0;
   const double fine = all.whole > 0 ? all.visible / all.whole : 0;
   const double left = kErrorLeft * std::fabs(fine - coarse) * part;
+  const double gap = missed_per_whole(all, sums.whole);
   // Two rules may agree by chance: what the quarters' own points show counts as well.
+  rest = max_number(rest, gap * open);
   const bool agrees = left <= tolerance && rest <= tolerance;
   if (agrees)
     *error += left > rest ? left : rest;
@@ -210,8 +230,8 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
   }
   for (int k = 0; k < 4; ++k) {
     if (!is_done[k]) // errors of parts are independent: their squares add up
-      HC_TRY(refine(quarters[k], narrowed[k], parts[k], tolerance / 2, (budget - 16) / left_open,
-                    refined, error));
+      HC_TRY(refine(quarters[k], narrowed[k], parts[k], gap * parts[k].whole, tolerance / 2,
+                    (budget - 16) / left_open, refined, error));
     else if (fates[k] == Fate::kSeen)
       refined->seen += parts[k].whole;
     else if (fates[k] == Fate::kHidden)
@@ -249,12 +269,15 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   const bool keeps = is_all_in_front && cells == 1;
   Totals totals;
   double error = 0;
+  Sums sums[kMaxCells], all;
   for (int k = 0; k < cells; ++k) {
-    const Cell cell{corners[k], 0, 0, 1};
-    Sums sums;
-    HC_TRY(sample(cell, all_blockers, keeps, &sums));
-    HC_TRY(refine(cell, all_blockers, sums, effort.tolerance, effort.max_points, &totals, &error));
+    HC_TRY(sample({corners[k], 0, 0, 1}, all_blockers, keeps, &sums[k]));
+    all.add(sums[k]);
   }
+  const double missed = missed_per_whole(all, whole);
+  for (int k = 0; k < cells; ++k)
+    HC_TRY(refine({corners[k], 0, 0, 1}, all_blockers, sums[k], missed * sums[k].whole,
+                  effort.tolerance, effort.max_points, &totals, &error));
   share->share = totals.share(whole);
   share->error = error;
   share->doubt = error > kUnseen ? error : kUnseen;

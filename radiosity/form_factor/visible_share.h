@@ -62,6 +62,8 @@ private:
     double least = 1, most = 0; ///< visible share of a point
     /// About how far a kink of the integrand between the points moves the sum.
     double kink() const noexcept { return most > least ? 0.125 * (most - least) * whole : 0; }
+    /// Takes in another part of the same receiver.
+    void add(const Sums& part) noexcept;
   };
   static constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
 
@@ -83,12 +85,17 @@ private:
   };
   enum class Fate { kSeen, kHidden, kOpen };
 
+  /// Points miss some of `whole`, as it is known or better sums say, near an edge that the receiver
+  /// shares with what it sees. Where they disagree about the share, any of that may be seen.
+  /// @return it over what all of the receiver sees, 0..1, per unit of sums.whole
+  double missed_per_whole(const Sums& sums, double whole) const noexcept;
+
   static int split(const ConvexPolygon& polygon, Vec3 (*cells)[4]) noexcept;
   Status sample(const Cell& cell, Range blockers, bool keeps, Sums* sums);
   Status find_shadows(const Vec3& eye, Range blockers, KeptShadows* kept);
   Status narrow(const Cell& cell, Range blockers, Range* narrowed, Fate* fate);
-  Status refine(const Cell& cell, Range blockers, const Sums& sums, double tolerance, double budget,
-                Totals* refined, double* error);
+  Status refine(const Cell& cell, Range blockers, const Sums& sums, double missed, double tolerance,
+                double budget, Totals* refined, double* error);
 
   const Facet* receiver_ = nullptr;
   const Facet* to_ = nullptr;
