@@ -254,7 +254,8 @@ double tensor_exchange(const AreaShape& p, const AreaShape& q,
   double sum = 0;
   for (int i = 0; i < count; ++i)
     sum += on_p.weight[i] * received[i];
-  return sum * (1 / kPi);
+  // Heights of points next to the other's plane may round below 0.
+  return sum > 0 ? sum * (1 / kPi) : 0;
 }
 
 double outer_exchange(const AreaShape& p, const AreaShape& q, const TensorOrders& orders) noexcept {
