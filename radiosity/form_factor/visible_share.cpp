@@ -58,7 +58,7 @@ void ShareIntegrator::Sums::add(const Sums& part) noexcept {
 }
 
 double ShareIntegrator::missed_per_whole(const Sums& sums, double whole) const noexcept {
-  if (!(sums.most > sums.least && sums.whole > 0))
+  if (!(sums.whole > 0))
     return 0;
   const double missed = std::fabs(sums.whole - whole) / all_;
   return (missed < 1 ? missed : 1) / sums.whole;

@@ -86,7 +86,7 @@ private:
   enum class Fate { kSeen, kHidden, kOpen };
 
   /// Points miss some of `whole`, as it is known or better sums say, near an edge that the receiver
-  /// shares with what it sees. Where they disagree about the share, any of that may be seen.
+  /// shares with what it sees. Whatever they say of the share, any of that may be seen or hidden.
   /// @return it over what all of the receiver sees, 0..1, per unit of sums.whole
   double missed_per_whole(const Sums& sums, double whole) const noexcept;
 
