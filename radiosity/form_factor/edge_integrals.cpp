@@ -176,7 +176,7 @@ double graded_integral(const Edge& p, const Edge& q, double cosine, double toler
       continue;
     }
     sum += length * mean_inner_integral(p.at(here.lo), p.at(here.hi), order, q);
-    *error += bound;
+    *error += 2 * bound; // both ends may be as near as the nearer
   }
   return sum;
 }

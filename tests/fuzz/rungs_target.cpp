@@ -60,6 +60,17 @@ std::string pair_problem(const PatchSet& patches, const FormFactors& area) {
   return text.str();
 }
 
+/// Strips of an aspect of 10^8 have no plane to speak of (raster/README.md, Limits): their own
+/// corners may lie as far off it as they are wide, and hide what is behind.
+bool has_strip(const PatchSet& patches) {
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
+    const PairSide side(patches, i);
+    if (side.longest * side.longest > 1e8 * side.area)
+      return true;
+  }
+  return false;
+}
+
 /// Patches with others between them: visible shares are good to the target.
 std::string share_problem(const PatchSet& patches, const FormFactors& loose) {
   FormFactors better;
@@ -106,7 +117,8 @@ Verdict judge_rungs(Bytes bytes) {
     std::string problem = closure_problem(factors);
     if (problem.empty() && count == 2 && level.rung == radiosity::Rung::kArea)
       problem = pair_problem(*patches, factors);
-    if (problem.empty() && count == 3 && level.rung == radiosity::Rung::kAdaptive)
+    if (problem.empty() && count == 3 && level.rung == radiosity::Rung::kAdaptive &&
+        !has_strip(*patches))
       problem = share_problem(*patches, factors);
     if (!problem.empty())
       return {std::string(level.name) + ": " + problem};
