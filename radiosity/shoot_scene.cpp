@@ -3,25 +3,23 @@
 #include "radiosity/solve/enclosures.h"
 #include "radiosity/solve/progressive.h"
 
-#include <cmath>
-
 namespace hemicube::radiosity {
 
-Status SceneShooter::look_around(RowStatistics* statistics) {
+Status SceneShooter::look_around() {
   bool is_needed = false;
   for (const double exitance : problem_.space_exitance)
     is_needed = is_needed || exitance > 0;
   for (const double reflectance : problem_.reflectance)
     is_needed = is_needed || reflectance == 1;
   if (!is_needed)
-    return shooter_.init(problem_, {});
+    return shooting_.init(problem_, {}, this);
   HC_TRY(space_.resize(problem_.patch_count()));
   EnclosureFinder finder;
   HC_TRY(finder.init(problem_, 1));
   Mutex mutex;
   const auto take = [&](std::uint64_t i, const RowView& row, const RowFacts* facts) {
     space_[i] = row.space;
-    statistics->record(i, row, *facts);
+    statistics_->record(i, row, *facts);
     const MutexLock lock(mutex);
     if (!problem_.is_black(i))
       finder.add_row(0, static_cast<std::uint32_t>(i), row);
@@ -34,11 +32,11 @@ Status SceneShooter::look_around(RowStatistics* statistics) {
   HC_TRY(rows_.build(problem_.patch_count(), place_of, take));
   Enclosures enclosures;
   HC_TRY(finder.finish(&enclosures));
-  HC_TRY(shooter_.init(problem_, space_.span()));
-  return check_enclosures(problem_, enclosures, shooter_.radiosity().span());
+  HC_TRY(shooting_.init(problem_, space_.span(), this));
+  return check_enclosures(problem_, enclosures, light().radiosity().span());
 }
 
-Status SceneShooter::make_rows(std::span<const std::uint32_t> patches, RowStatistics* statistics) {
+Status SceneShooter::prepare(std::span<const std::uint32_t> patches) {
   constexpr std::uint64_t kApart = FormFactorMatrix::kBlockRows;
   HC_TRY(made_.init(patches.size() * kApart, static_cast<std::uint32_t>(problem_.patch_count())));
   const auto place_of = [&](std::uint64_t k, RowPlace* place) {
@@ -48,20 +46,22 @@ Status SceneShooter::make_rows(std::span<const std::uint32_t> patches, RowStatis
   return rows_.build(patches.size() * kApart, place_of,
                      [&](std::uint64_t k, const RowView& row, const RowFacts* facts) {
                        if (facts != nullptr)
-                         statistics->record(patches[k / kApart], row, *facts);
+                         statistics_->record(patches[k / kApart], row, *facts);
                        return made_.append_row(k / kApart, row);
                      });
 }
 
+Status SceneShooter::row(std::size_t k, RowView* row) {
+  *row = made_.row(k * FormFactorMatrix::kBlockRows);
+  return {};
+}
+
 Status SceneShooter::tell() {
-  UnshotLight& unshot = shooter_.unshot();
-  unshot.survey();
-  convergence_.unshot = unshot.share();
-  if (!std::isfinite(unshot.share()))
-    return Status::error(StatusCode::kBadScene, "the light is too bright to be computed: scale ",
-                         "the exitances down");
-  if (progress_ == nullptr || progress_->shot({convergence_.shots, unshot.share(),
-                                               shooter_.radiosity().span(), unshot.ambient()}))
+  convergence_.shots = shooting_.shots();
+  convergence_.unshot = shooting_.unshot();
+  if (progress_ == nullptr ||
+      progress_->shot({convergence_.shots, convergence_.unshot, light().radiosity().span(),
+                       light().unshot().ambient()}))
     return {};
   return Status::error(StatusCode::kCancelled, "interrupted after ", convergence_.shots, " shots");
 }
@@ -71,23 +71,17 @@ Status SceneShooter::run(RowGeometry* geometry, const RungSetting& setting, cons
   HC_TRY(check_stop_unshot(options.stop_unshot));
   const double stop = options.stop_unshot > 0 ? options.stop_unshot : kDefaultStopUnshot;
   progress_ = progress;
+  statistics_ = statistics;
   convergence_ = {};
   HC_TRY(rows_.init(geometry, setting, options, problem_.patch_count(), executor, nullptr));
-  HC_TRY(look_around(statistics));
+  HC_TRY(look_around());
+  HC_TRY(shooting_.survey());
   HC_TRY(tell());
   while (convergence_.unshot > stop && convergence_.shots < options.max_shots) {
-    std::uint32_t brightest[kRowsAtOnce];
-    const std::size_t count = shooter_.unshot().choose(brightest);
-    HC_TRY(make_rows({brightest, count}, statistics));
-    for (std::size_t k = 0;
-         k < count && convergence_.unshot > stop && convergence_.shots < options.max_shots; ++k) {
-      const FloatEnvironment environment;
-      shooter_.shoot(brightest[k], made_.row(k * FormFactorMatrix::kBlockRows));
-      ++convergence_.shots;
-      HC_TRY(tell());
-    }
+    HC_TRY(shooting_.shoot());
+    HC_TRY(tell());
   }
-  convergence_.unshot_bound = shooter_.bound();
+  convergence_.unshot_bound = light().bound();
   convergence_.converged = convergence_.unshot <= stop;
   if (convergence_.converged)
     return {};
@@ -97,14 +91,14 @@ Status SceneShooter::run(RowGeometry* geometry, const RungSetting& setting, cons
 }
 
 EnergyBalance SceneShooter::energy(std::uint32_t band) noexcept {
-  const ShotPower& power = shooter_.power(band);
+  const ShotPower& power = light().power(band);
   EnergyBalance energy;
-  energy.emitted = shooter_.emitted(band);
+  energy.emitted = light().emitted(band);
   energy.absorbed = power.absorbed;
   energy.back_side = power.back_side;
   energy.escaped = power.escaped;
   energy.cut = power.cut;
-  energy.unshot = shooter_.unshot_power(band);
+  energy.unshot = light().unshot_power(band);
   if (energy.emitted > 0)
     energy.imbalance = (energy.emitted - energy.absorbed - energy.back_side - energy.escaped -
                         energy.cut - energy.unshot) /

@@ -2,7 +2,7 @@
 
 #include "radiosity/row_run.h"
 #include "radiosity/row_statistics.h"
-#include "radiosity/solve/row_shooter.h"
+#include "radiosity/solve/shooting.h"
 
 namespace hemicube::radiosity {
 
@@ -10,10 +10,10 @@ namespace hemicube::radiosity {
 inline constexpr double kDefaultStopUnshot = 0.001;
 
 /// Light by progressive refinement without a matrix: rows of form factors are made when their patch
-/// shoots, those of the kRowsAtOnce brightest at once, in parallel, and forgotten. Memory
+/// shoots, those of the Shooting::kRowsAtOnce brightest at once, in parallel, and forgotten. Memory
 /// O(patches). Where space sends light in, or a patch reflects everything, all rows are made once
 /// before, for what they say of space and of enclosures.
-class SceneShooter {
+class SceneShooter final : ShotRows {
 public:
   /// @param problem  outlives this
   explicit SceneShooter(const LightProblem& problem) : problem_(problem) {}
@@ -26,24 +26,24 @@ public:
   Status run(RowGeometry* geometry, const RungSetting& setting, const Options& options,
              Executor& executor, SolverProgress* progress, RowStatistics* statistics);
 
-  RowShooter& light() noexcept { return shooter_; }
+  RowShooter& light() noexcept { return shooting_.light(); }
   const Convergence& convergence() const noexcept { return convergence_; }
 
   /// Of the problem's bands.
   EnergyBalance energy(std::uint32_t band) noexcept;
 
 private:
-  static constexpr std::size_t kRowsAtOnce = 16;
-
-  Status look_around(RowStatistics* statistics);
-  Status make_rows(std::span<const std::uint32_t> patches, RowStatistics* statistics);
+  Status look_around();
+  Status prepare(std::span<const std::uint32_t> patches) override;
+  Status row(std::size_t k, RowView* row) override;
   Status tell();
 
   const LightProblem& problem_;
   RowRun rows_;
   FormFactorMatrix made_; ///< a block for each row: a worker for each
   Buffer<double> space_;  ///< [patch], or empty
-  RowShooter shooter_;
+  Shooting shooting_;
+  RowStatistics* statistics_ = nullptr;
   Convergence convergence_;
   SolverProgress* progress_ = nullptr;
 };

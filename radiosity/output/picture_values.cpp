@@ -80,6 +80,15 @@ Status picture_values(const PatchSet& patches, const Solution& solution, Quantit
   return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
 }
 
+Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values) {
+  *values = {};
+  values->band_count = solution.band_count;
+  HC_TRY(values->patch.assign(solution.radiosity));
+  for (std::size_t at = 0; at < values->patch.size() && !solution.ambient.empty(); ++at)
+    values->patch[at] += solution.reflectance[at] * solution.ambient[at % solution.band_count];
+  return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
+}
+
 std::uint32_t unknown_count(const PictureValues& values) noexcept {
   std::uint32_t count = 0;
   for (std::size_t first = 0; first < values.patch.size(); first += values.band_count) {

@@ -33,6 +33,11 @@ struct PictureValues {
 Status picture_values(const PatchSet& patches, const Solution& solution, Quantity quantity,
                       bool flat, PictureValues* values);
 
+/// Radiosity as pictures show it: where light is still unshot, with what the ambient term makes of
+/// it (Cohen et al. 1988). Tables and PLY files never have it.
+/// @return kOutOfMemory
+Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values);
+
 /// Patches of which a band is not known: they are drawn as background.
 std::uint32_t unknown_count(const PictureValues& values) noexcept;
 

@@ -87,15 +87,6 @@ Status write_all(FileSet* files, const SolutionParts& parts, std::string* report
 
 } // namespace
 
-Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values) {
-  *values = {};
-  values->band_count = solution.band_count;
-  HC_TRY(values->patch.assign(solution.radiosity));
-  for (std::size_t at = 0; at < values->patch.size() && !solution.ambient.empty(); ++at)
-    values->patch[at] += solution.reflectance[at] * solution.ambient[at % solution.band_count];
-  return vertex_radiosities(patches, values->patch, values->band_count, &values->corner);
-}
-
 Status begin_solution(FileSet* files, const std::string& folder) {
   HC_TRY(files->begin(folder));
   for (const char* name :

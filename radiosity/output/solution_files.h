@@ -34,8 +34,4 @@ Status begin_solution(FileSet* files, const std::string& folder);
 Status write_solution(FileSet* files, const SolutionParts& parts, std::string* report,
                       std::string* note);
 
-/// Radiosity as pictures show it: where light is still unshot, with what the ambient term makes of
-/// it (Cohen et al. 1988). Tables and PLY files never have it.
-Status displayed_values(const PatchSet& patches, const Solution& solution, PictureValues* values);
-
 } // namespace hemicube::radiosity

@@ -10,10 +10,12 @@ Status RowShooter::init(const LightProblem& problem, std::span<const double> spa
   problem_ = &problem;
   const std::uint32_t bands = problem.band_count;
   const std::size_t count = problem.patch_count() * bands;
-  HC_TRY(radiosity_.resize(count));
-  HC_TRY(irradiance_.resize(count));
-  HC_TRY(shot_.resize(bands));
-  HC_TRY(emitted_.resize(bands));
+  power_.clear();
+  emitted_.clear();
+  for (Buffer<double>* values : {&radiosity_, &irradiance_})
+    HC_TRY(values->resize(count));
+  for (Buffer<double>* values : {&shot_, &emitted_})
+    HC_TRY(values->resize(bands));
   HC_TRY(power_.resize(bands));
   for (std::size_t at = 0; at < count; ++at) {
     const std::size_t i = at / bands;

@@ -17,6 +17,7 @@ struct ShotPower {
 /// serves its receivers by reciprocity, F_ij = F_ji A_j / A_i, capped at 1. Memory O(patches).
 class RowShooter {
 public:
+  /// Begins, or begins anew.
   /// @param problem  outlives this
   /// @param space    [patch] the fraction that sees space; empty if no light comes from there
   Status init(const LightProblem& problem, std::span<const double> space);

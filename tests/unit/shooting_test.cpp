@@ -87,6 +87,22 @@ TEST(RowShooter, WhatAPatchCannotReceiveIsCounted) {
   expect_conserved(&shooter, 1);
 }
 
+// Catches: what the last run left behind.
+TEST(RowShooter, BeginsAnew) {
+  const System s = random_room(50, 2);
+  const LightProblem problem = s.problem();
+  const std::vector<double> space = spaces(s);
+  RowShooter first, again;
+  ASSERT_TRUE(again.init(problem, space).ok());
+  shoot(s, 0.1, 1000, &again);
+  for (RowShooter* shooter : {&first, &again}) {
+    ASSERT_TRUE(shooter->init(problem, space).ok());
+    shoot(s, 0.01, 1000, shooter);
+    expect_conserved(shooter, 2);
+  }
+  EXPECT_TRUE(test::same_bits(again.radiosity().span(), first.radiosity().span()));
+}
+
 class ShootScene : public ::testing::Test {
 protected:
   static Options options() {
