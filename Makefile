@@ -10,8 +10,8 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 BUILD_PACKAGES := g++ cmake pkg-config libglm-dev libopenmesh-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
 TEST_PACKAGES := libgtest-dev libtinygltf-dev python3 dpkg-dev locales
 CHECK_PACKAGES := clang clang-format
-PORT_PACKAGES := g++-aarch64-linux-gnu qemu-user nodejs \
-  clang-14 lld-14 llvm-14 wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32
+WASM_PACKAGES := clang-14 lld-14 llvm-14 wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 libclang-rt-14-dev-wasm32
+PORT_PACKAGES := g++-aarch64-linux-gnu qemu-user nodejs $(WASM_PACKAGES)
 FUZZ_PACKAGES := clang libclang-rt-14-dev
 LINT_PACKAGES := clang-tidy-14 cppcheck
 COVERAGE_PACKAGES := gcovr
@@ -19,6 +19,7 @@ BENCH_PACKAGES := libbenchmark-dev
 PLOT_PACKAGES := gnuplot-nox
 PEER_PACKAGES := libembree-dev libegl-dev libgl-dev libgl1-mesa-dri $(PLOT_PACKAGES)
 VIEWER_PACKAGES := nodejs npm chromium
+WASM_TOOLCHAIN := -Wno-dev -DCMAKE_TOOLCHAIN_FILE=tests/golden/wasm.cmake -DCMAKE_BUILD_TYPE=Release
 NODE_WASI := node --no-warnings --experimental-wasi-unstable-preview1 tests/golden/run_wasi.mjs
 APT_INSTALL := apt-get install -y --no-install-recommends -o DPkg::Lock::Timeout=500
 
@@ -40,7 +41,7 @@ define hashes
 @echo "== $(1)" && $(3) $(BUILD)/determinism/$(1)/golden_hashes <$(BUILD)/determinism/scenes
 endef
 
-.PHONY: all help deps deps-check demo test format format-check determinism determinism-quick sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement embedding growth peers golden check-glb clean ci
+.PHONY: all help deps deps-check demo test format format-check determinism determinism-quick sanitize tsan coverage tidy cppcheck fuzz core core-sources install package bench speed solvers refinement embedding growth peers golden check-glb web check-web clean ci
 
 all: ## build build/hemicube (installs nothing)
 	@missing="$(call missing,$(BUILD_PACKAGES))"; if [ -n "$$missing" ]; then \
@@ -82,7 +83,7 @@ determinism: determinism-quick ## the golden hashes on every compiler, optimisat
 	$(call hashes,aarch64,-DCMAKE_TOOLCHAIN_FILE=tests/golden/aarch64.cmake -DCMAKE_BUILD_TYPE=Release,qemu-aarch64)
 	@cmake --build $(BUILD)/determinism/aarch64 --parallel $(JOBS) --target processor_test
 	@qemu-aarch64 $(BUILD)/determinism/aarch64/processor_test --gtest_brief=1
-	$(call hashes,wasm,-DCMAKE_TOOLCHAIN_FILE=tests/golden/wasm.cmake -DCMAKE_BUILD_TYPE=Release,$(NODE_WASI))
+	$(call hashes,wasm,$(WASM_TOOLCHAIN),$(NODE_WASI))
 
 determinism-quick: deps deps-check ## the same with the build folder's compiler, g++ -O0 and clang++ -O3
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE) -DHEMICUBE_TESTS=ON -DHEMICUBE_WERROR=ON
@@ -229,6 +230,26 @@ check-glb: ## solution.glb in a browser, against its own colours and view.png (n
 	@$(BUILD)/hemicube solve scenes/cornell.json --rung hemicube --resolution 64 --quiet -o $(BUILD)/viewers/cornell
 	@npm install --prefix $(BUILD)/viewers --no-audit --no-fund --loglevel error three@0.160.1 gltf-validator@2.0.0-dev.3.10
 	@node tests/viewers/check_glb.mjs $(BUILD)/viewers/cornell $(BUILD)/viewers chromium
+
+web: ## install, and make the page build/web/hemicube.html: the Cornell box, lit in a browser
+	$(call install,$(BUILD_PACKAGES) $(WASM_PACKAGES))
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=$(TYPE)
+	@cmake --build $(BUILD) --parallel $(JOBS) --target make_page
+	@cmake -S . -B $(BUILD)/web/module -DHEMICUBE_CORE_ONLY=ON $(WASM_TOOLCHAIN) >/dev/null
+	@cmake --build $(BUILD)/web/module --parallel $(JOBS) --target page
+	@$(BUILD)/make_page $(BUILD)/web/module/page.wasm scenes/cornell.json radiosity/web $(BUILD)/web/hemicube.html
+
+WEB_RESOLUTIONS := 128 64
+check-web: web ## the page in a browser, against the native program: F, pictures, every control (needs node, npm, chromium)
+	@for tool in node npm chromium; do command -v $$tool >/dev/null || { \
+	  echo "check-web: there is no $$tool; install it, for example with: $(SUDO) $(APT_INSTALL) $(VIEWER_PACKAGES)"; exit 1; }; done
+	@cmake --build $(BUILD) --parallel $(JOBS) --target hemicube
+	@for resolution in $(WEB_RESOLUTIONS); do $(BUILD)/hemicube solve scenes/cornell.json --rung hemicube --resolution $$resolution \
+	  --solver progressive --quiet -o $(BUILD)/web/native_$$resolution && \
+	  $(BUILD)/hemicube formfactors scenes/cornell.json --rung hemicube --resolution $$resolution --quiet --json \
+	  >$(BUILD)/web/native_$$resolution/form_factors.json || exit 1; done
+	@npm install --prefix $(BUILD)/web --no-audit --no-fund --loglevel error playwright-core@1.65.1
+	@node tests/web/check_web.mjs $(BUILD)/web $$(command -v chromium) $(WEB_RESOLUTIONS)
 
 ci: test format-check determinism-quick ## what .ci/run runs
 

@@ -29,7 +29,7 @@ endif()
 install(FILES radiosity/c_api/hemicube.h DESTINATION include)
 install(DIRECTORY raster radiosity DESTINATION include/hemicube
   FILES_MATCHING PATTERN "*.h"
-  PATTERN "simd/ops_*" EXCLUDE PATTERN "c_api" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "pictures" EXCLUDE PATTERN "package" EXCLUDE)
+  PATTERN "simd/ops_*" EXCLUDE PATTERN "c_api" EXCLUDE PATTERN "cli" EXCLUDE PATTERN "pictures" EXCLUDE PATTERN "package" EXCLUDE PATTERN "web" EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY radiosity/c_api/examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

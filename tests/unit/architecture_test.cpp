@@ -40,7 +40,8 @@ const std::vector<std::string> kRooms = {"raster/",
                                          "radiosity/refine/",
                                          "radiosity/output/",
                                          "radiosity/c_api/",
-                                         "radiosity/cli/"};
+                                         "radiosity/cli/",
+                                         "radiosity/web/"};
 
 /// Files directly in radiosity/: what every room may use, and the facade that stands above the
 /// solver.
@@ -54,7 +55,7 @@ bool starts_with(const std::string& text, const std::string& prefix) {
 
 bool is_adapter(const std::string& file) {
   static const std::regex adapter(
-      R"(radiosity/(adaptive|cli/|discontinuity/|refine/|scene/(?!scene\.h|name_table\.h|check_scene\.)|mesh/openmesh_|output/(corner_vertices|csv_reader|display_mesh|element_table|file_set|file_writer|glb_writer|group_matrix|group_table|image_|little_endian|matrix_market|number_text|patch_table|ply_writer|report_json|row_file|solution_files)).*)");
+      R"(radiosity/(adaptive|cli/|discontinuity/|refine/|web/make_page|scene/(?!scene\.h|name_table\.h|check_scene\.)|mesh/openmesh_|output/(corner_vertices|csv_reader|display_mesh|element_table|file_set|file_writer|glb_writer|group_matrix|group_table|image_|little_endian|matrix_market|number_text|patch_table|ply_writer|report_json|row_file|solution_files)).*)");
   return std::regex_match(file, adapter);
 }
 
