@@ -240,9 +240,10 @@ web: ## install, and make the page build/web/hemicube.html: the Cornell box, lit
 	@$(BUILD)/make_page $(BUILD)/web/module/page.wasm scenes/cornell.json radiosity/web $(BUILD)/web/hemicube.html
 
 WEB_RESOLUTIONS := 128 64
-check-web: web ## the page in a browser, against the native program: F, pictures, every control (needs node, npm, chromium)
+check-web: ## the page in a browser, against the native program: F, pictures, every control (needs node, npm, chromium)
 	@for tool in node npm chromium; do command -v $$tool >/dev/null || { \
 	  echo "check-web: there is no $$tool; install it, for example with: $(SUDO) $(APT_INSTALL) $(VIEWER_PACKAGES)"; exit 1; }; done
+	@$(MAKE) --no-print-directory web
 	@cmake --build $(BUILD) --parallel $(JOBS) --target hemicube
 	@for resolution in $(WEB_RESOLUTIONS); do $(BUILD)/hemicube solve scenes/cornell.json --rung hemicube --resolution $$resolution \
 	  --solver progressive --quiet -o $(BUILD)/web/native_$$resolution && \

@@ -1,13 +1,14 @@
 // Makes the page, one HTML file that needs no other: make_page MODULE.wasm SCENE SOURCES PAGE.html.
 // In SOURCES/page.html each {{name}} is replaced: a file of that folder, the module, the scene as
 // the program reads it, or the facts that the page shows beside its own.
+#include "radiosity/cli/console.h"
 #include "radiosity/cli/load_scene.h"
+#include "radiosity/output/file_set.h"
 #include "radiosity/output/picture.h"
 #include "radiosity/parallel/thread_pool.h"
 #include "radiosity/radiosity.h"
 #include "radiosity/web/page_scene.h"
 
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -57,10 +58,7 @@ std::string form_factor_hash(const PatchSet& patches, std::uint32_t resolution,
   FormFactorMatrix matrix;
   Certificate certificate;
   require(compute_form_factors(patches, {}, options, executor, nullptr, &matrix, &certificate));
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(certificate.form_factor_hash));
-  return text;
+  return hex(certificate.form_factor_hash);
 }
 
 /// Of the picture of the light that the page comes to when nothing is changed.
@@ -92,9 +90,9 @@ std::string facts(const PatchSet& patches, Executor& executor) {
   return text + "}}";
 }
 
-std::string packed(web::PageScene* page) {
+std::string packed(const web::PageScene& page) {
   Buffer<std::byte> bytes;
-  require(web::pack_page_scene(*page, &bytes));
+  require(web::pack_page_scene(page, &bytes));
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
@@ -113,6 +111,13 @@ void make_page(const std::string& module, const std::string& scene_path, const s
   page.scene = std::move(loaded.scene);
   page.patches = std::move(loaded.patches);
 
+  const auto part = [&](const std::string& name) {
+    if (name == "module")
+      return base64(read_file(module));
+    if (name == "scene")
+      return base64(packed(page));
+    return name == "facts" ? known : read_file((sources + "/").append(name));
+  };
   std::string html;
   const std::string form = read_file(sources + "/page.html");
   for (std::size_t at = 0; at < form.size();) {
@@ -120,33 +125,29 @@ void make_page(const std::string& module, const std::string& scene_path, const s
     html.append(form, at, open - at);
     if (close == std::string::npos)
       break;
-    const std::string name = form.substr(open + 2, close - open - 2);
-    html += name == "module"  ? base64(read_file(module))
-            : name == "scene" ? base64(packed(&page))
-            : name == "facts" ? known
-                              : read_file(sources + "/" + name);
+    html += part(form.substr(open + 2, close - open - 2));
     at = close + 2;
   }
-  std::ofstream file(output, std::ios::binary);
-  file << html;
-  file.close();
-  if (!file)
-    throw std::runtime_error(output + ": cannot be written");
-  std::printf("%s: %zu bytes\n", output.c_str(), html.size());
+  FileSet files;
+  std::string name;
+  require(files.begin_file(output, &name));
+  require(files.add(name, html));
+  require(files.commit());
+  cli::print(cli::concat(output, ": ", html.size(), " bytes\n"));
 }
 
 } // namespace
 
 int main(int count, char** words) {
   if (count != 5) {
-    std::fprintf(stderr, "usage: make_page MODULE.wasm SCENE SOURCES PAGE.html\n");
+    cli::print_message("usage: make_page MODULE.wasm SCENE SOURCES PAGE.html");
     return 2;
   }
   try {
     make_page(words[1], words[2], words[3], words[4]);
     return 0;
   } catch (const std::exception& exception) {
-    std::fprintf(stderr, "make_page: %s\n", exception.what());
+    cli::print_message(exception.what());
     return 1;
   }
 }
