@@ -28,9 +28,10 @@ struct ConvexPolygon {
       append(corner);
   }
   ConvexPolygon(const ConvexPolygon& other) noexcept { *this = other; }
+  // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): does no harm
   ConvexPolygon& operator=(const ConvexPolygon& other) noexcept {
     count = other.count;
-    for (int k = 0; k < count; ++k) // NOLINT(bugprone-unhandled-self-assignment): does no harm
+    for (int k = 0; k < count; ++k)
       corners[k] = other.corners[k];
     return *this;
   }
