@@ -99,7 +99,8 @@ sanitize: deps ## all tests under AddressSanitizer and UndefinedBehaviorSanitize
 	  -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined \
 	    -fno-omit-frame-pointer -g1"
 	@cmake --build $(BUILD)/sanitize --parallel $(JOBS)
-	@cd $(BUILD)/sanitize && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+	@cd $(BUILD)/sanitize && LSAN_OPTIONS=suppressions=$(CURDIR)/tests/support/leaks.txt:print_suppressions=0 \
+	  ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
 
 # Where workers could disturb each other.
 TSAN_TESTS := balance_test form_factor_property_test golden_test kept_rows_test ladder_property_test \

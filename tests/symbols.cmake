@@ -10,6 +10,7 @@ foreach(object IN LISTS OBJECTS)
     message(FATAL_ERROR "nm failed on ${object}")
   endif()
   string(REGEX MATCHALL "[^\n]+\n" lines "${symbols}")
+  list(FILTER lines EXCLUDE REGEX "__odr_asan") # AddressSanitizer's
   list(LENGTH lines count)
   if(count EQUAL 0)
     continue()

@@ -197,7 +197,9 @@ TEST_F(KeptFilesTest, FormFactorsBeyondMemoryAreTheSame) {
   const Json expected = report(words({"--by-group", "-o", path("all.csv")}));
   const Json little = report(words({"--by-group", "-o", path("little.csv"), "--memory", "24MiB"}));
   EXPECT_EQ(little["result"], expected["result"]);
+#ifndef __SANITIZE_ADDRESS__ // which keeps what was given back for a while
   EXPECT_LT(little["run"]["peak_memory_bytes"], expected["run"]["peak_memory_bytes"]);
+#endif
   EXPECT_EQ(read("little.csv"), read("all.csv"));
   EXPECT_EQ(report(words({"-o", path("f.hcf"), "--memory", "24MiB"}))["result"],
             expected["result"]);

@@ -55,6 +55,9 @@ void* operator new(std::size_t bytes) {
     return memory;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return take(alignof(std::max_align_t), bytes);
+}
 void operator delete(void* memory) noexcept {
   give_back(memory);
 }
