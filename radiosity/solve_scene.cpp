@@ -235,6 +235,7 @@ Status SceneSolver::shoot(Certificate* certificate) {
   for (std::uint32_t b = 0; b < problem_.band_count; ++b)
     shot_energy_[b] = shooter.energy(b);
   for (std::size_t at = 0; at < irradiance_.size() && !options_.black_irradiance; ++at)
+    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): no bands, no irradiance
     if (problem_.is_black(at / problem_.band_count))
       irradiance_[at] = kNotComputed;
   if (options_.estimate_error && setting_.rung != Rung::kExact) {

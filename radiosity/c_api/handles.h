@@ -62,6 +62,7 @@ public:
 
   Status make() noexcept { return make_handle(&made_); }
   T* operator->() const noexcept { return made_; }
+  // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn): make() has gone well
   T& operator*() const noexcept { return *made_; }
   void give(T** owner) noexcept {
     *owner = made_;

@@ -383,7 +383,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
       return concat("a command is missing; there are ", commands);
     return concat("unknown option ", app.remaining().front());
   }
-  const std::string message = error.what();
+  std::string message = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return message.substr(0, message.find(':')) + ": takes exactly one value";
   return message;

@@ -3,14 +3,18 @@
 #include "radiosity/output/csv_reader.h"
 #include "radiosity/scene/text_cursor.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 namespace hemicube::radiosity::cli {
 namespace {
 
-const std::vector<std::string> kColumns = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::string_view kColumns[] = {"x", "y", "z", "nx", "ny", "nz"};
 
 Status read_record(const std::string& path, std::uint64_t line,
                    const std::vector<std::string>& fields, Receiver* point) {
-  if (fields.size() != kColumns.size())
+  if (fields.size() != std::size(kColumns))
     return error_at(path, line, fields.size(), " fields; there must be 6: x,y,z,nx,ny,nz");
   double values[6] = {};
   for (std::size_t k = 0; k < fields.size(); ++k)
@@ -33,7 +37,7 @@ Status read_points(const std::string& path, std::vector<Receiver>* points) {
   const bool any = reader.next(&fields);
   for (std::string& field : fields)
     std::erase(field, ' ');
-  if (!any || fields != kColumns)
+  if (!any || !std::ranges::equal(fields, kColumns))
     return error_at(path, 1, "the first line must be the header x,y,z,nx,ny,nz, not ",
                     in_quotes(std::string_view(text).substr(0, text.find_first_of("\r\n"))));
   while (reader.next(&fields)) {

@@ -95,6 +95,7 @@ Status open_to_append(ByteFile& file, const MatrixFileHead& head, RowStorage* st
   sealed.seal();
   bool sound = false;
   HC_TRY(read_head(file, &found, &sound));
+  // Bit for bit: NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c)
   if (sound && std::memcmp(&found, &sealed, sizeof(found)) == 0)
     return {};
   HC_TRY(file.truncate(0));

@@ -256,8 +256,10 @@ Status check_arguments(const PatchSet& coarse, std::span<const double> max_edge)
 // Into how many pieces halving cuts a length; counted no further than there can be patches.
 double pieces_of(double length, double max_edge) {
   double count = 1;
-  for (; too_long(length, max_edge) && count <= raster::kMaxPolygonCount; length *= 0.5)
+  while (too_long(length, max_edge) && count <= raster::kMaxPolygonCount) {
+    length *= 0.5;
     count *= 2;
+  }
   return count;
 }
 

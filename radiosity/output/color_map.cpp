@@ -19,6 +19,7 @@ Color false_color(double share) noexcept {
   const double part = at - below;
   Color color;
   for (std::size_t channel = 0; channel < color.size(); ++channel) {
+    // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): 0 <= below < kSteps, also of NaN
     const double low = kColors[below][channel], high = kColors[below + 1][channel];
     color[channel] = static_cast<std::uint8_t>(low + part * (high - low) + 0.5);
   }

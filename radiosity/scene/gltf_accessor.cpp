@@ -140,6 +140,7 @@ Status find_elements(GltfFile* file, const GltfFile::Item& accessor, std::string
 Status read_positions(GltfFile* file, const GltfFile::Item& accessor, Buffer<Vec3>* positions) {
   Elements elements;
   HC_TRY(find_elements(file, accessor, "VEC3", 3, &elements));
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): find_elements has set it
   const ComponentType& type = *elements.type;
   if (type.component == Component::kUint32)
     return file->fields().error(*accessor.value, accessor.what,
@@ -168,6 +169,7 @@ Status read_indices(GltfFile* file, const GltfFile::Item& accessor, std::uint64_
                     Buffer<std::uint32_t>* indices) {
   Elements elements;
   HC_TRY(find_elements(file, accessor, "SCALAR", 1, &elements));
+  // NOLINTNEXTLINE(clang-analyzer-core.NullDereference): find_elements has set it
   const ComponentType& type = *elements.type;
   if (type.component != Component::kUint8 && type.component != Component::kUint16 &&
       type.component != Component::kUint32)

@@ -174,6 +174,7 @@ private:
     Stored stored;
     // cppcheck-suppress uninitvar ; Stored has bytes
     std::memcpy(&stored, raw, sizeof stored);
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse,cert-str34-c): the file says that it is signed
     *value = static_cast<Value>(stored);
     at_ += sizeof(Stored);
     return {};

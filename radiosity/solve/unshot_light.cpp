@@ -59,9 +59,11 @@ std::size_t UnshotLight::choose(std::span<std::uint32_t> patches) const noexcept
     for (std::uint32_t b = 0; b < bands; ++b)
       power += std::fabs(values_[i * bands + b] + overshoot(i, b));
     power *= problem_->area[i];
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): count <= kMost
     if (!(power > 0) || (count == patches.size() && power <= powers[count - 1]))
       continue;
     std::size_t place = count < patches.size() ? count++ : count - 1;
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): place < count
     for (; place > 0 && powers[place - 1] < power; --place) {
       powers[place] = powers[place - 1];
       patches[place] = patches[place - 1];
