@@ -112,13 +112,16 @@ tsan: deps ## the tests with several workers, and the golden ones, under ThreadS
 	@cd $(BUILD)/tsan && ctest --output-on-failure --parallel $(JOBS) \
 	  -R '$(if $(filter .,$(T)),Thread|Worker|Golden|RowStore|Interrupted,$(T))'
 
+# Left out are a test in which no file may grow, as those of the counters do, and one of installed files,
+# which must not name the build folder, as the counters do.
+COVERAGE_LEAVES := LimitsTest.AFullDisk|Package.IsFound
 CORE_DIRS := $(BUILD)/coverage/CMakeFiles/hemicube_raster.dir $(BUILD)/coverage/CMakeFiles/hemicube_core.dir
 coverage: deps ## how much of raster/ and of the core the tests run, by file; fails below 90 % of the lines
 	$(call install,$(COVERAGE_PACKAGES))
 	@cmake -S . -B $(BUILD)/coverage -DCMAKE_BUILD_TYPE=Release -DHEMICUBE_TESTS=ON \
 	  -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG --coverage -fprofile-update=atomic"
 	@cmake --build $(BUILD)/coverage --parallel $(JOBS)
-	@cd $(BUILD)/coverage && ctest --output-on-failure --parallel $(JOBS) -R '$(T)'
+	@cd $(BUILD)/coverage && ctest --output-on-failure --parallel $(JOBS) -R '$(T)' -E '$(COVERAGE_LEAVES)'
 	@gcovr --root . --exclude-throw-branches --sort-uncovered --fail-under-line 90 $(CORE_DIRS)
 
 tidy: deps ## clang-tidy over raster/ and radiosity/, by .clang-tidy
