@@ -50,18 +50,11 @@ double ShareIntegrator::Totals::share(double whole) const noexcept {
   return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-void ShareIntegrator::Sums::add(const Sums& part) noexcept {
-  whole += part.whole;
-  visible += part.visible;
-  least = part.least < least ? part.least : least;
-  most = part.most > most ? part.most : most;
-}
-
-double ShareIntegrator::missed_per_whole(const Sums& sums, double whole) const noexcept {
-  if (!(sums.whole > 0))
+double ShareIntegrator::missed_per_whole(double met, double whole) const noexcept {
+  if (!(met > 0))
     return 0;
-  const double missed = std::fabs(sums.whole - whole) / all_;
-  return (missed < 1 ? missed : 1) / sums.whole;
+  const double missed = std::fabs(met - whole) / all_;
+  return (missed < 1 ? missed : 1) / met;
 }
 
 Status ShareIntegrator::init(std::uint32_t face_count, double tolerance) {
@@ -209,14 +202,15 @@ Status ShareIntegrator::refine(const Cell& cell, Range blockers, const Sums& sum
     HC_TRY(sample(quarters[k], is_open ? narrowed[k] : Range(), false, &parts[k]));
     if (fates[k] == Fate::kHidden)
       parts[k].visible = parts[k].least = parts[k].most = 0;
-    all.add(parts[k]);
+    all.whole += parts[k].whole;
+    all.visible += parts[k].visible;
     open += is_open ? parts[k].whole : 0;
     rest = parts[k].kink() / all_ > rest ? parts[k].kink() / all_ : rest;
   }
   const double coarse = sums.whole > 0 ? sums.visible / sums.whole : 0;
   const double fine = all.whole > 0 ? all.visible / all.whole : 0;
   const double left = kErrorLeft * std::fabs(fine - coarse) * part;
-  const double gap = missed_per_whole(all, sums.whole);
+  const double gap = missed_per_whole(all.whole, sums.whole);
   // Two rules may agree by chance: what the quarters' own points show counts as well.
   rest = max_number(rest, gap * open);
   const bool agrees = left <= tolerance && rest <= tolerance;
@@ -269,10 +263,11 @@ Status ShareIntegrator::find(const Facet& to, std::span<const Blocker> blockers,
   const bool keeps = is_all_in_front && cells == 1;
   Totals totals;
   double error = 0;
-  Sums sums[kMaxCells], all;
+  Sums sums[kMaxCells];
+  double all = 0;
   for (int k = 0; k < cells; ++k) {
     HC_TRY(sample({corners[k], 0, 0, 1}, all_blockers, keeps, &sums[k]));
-    all.add(sums[k]);
+    all += sums[k].whole;
   }
   const double missed = missed_per_whole(all, whole);
   for (int k = 0; k < cells; ++k)

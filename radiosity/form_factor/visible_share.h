@@ -62,8 +62,6 @@ private:
     double least = 1, most = 0; ///< visible share of a point
     /// About how far a kink of the integrand between the points moves the sum.
     double kink() const noexcept { return most > least ? 0.125 * (most - least) * whole : 0; }
-    /// Takes in another part of the same receiver.
-    void add(const Sums& part) noexcept;
   };
   static constexpr int kMaxCells = ConvexPolygon::kMaxCorners / 2;
 
@@ -87,8 +85,9 @@ private:
 
   /// Points miss some of `whole`, as it is known or better sums say, near an edge that the receiver
   /// shares with what it sees. Whatever they say of the share, any of that may be seen or hidden.
-  /// @return it over what all of the receiver sees, 0..1, per unit of sums.whole
-  double missed_per_whole(const Sums& sums, double whole) const noexcept;
+  /// @param met  the sum over the points
+  /// @return it over what all of the receiver sees, 0..1, per unit of what was met
+  double missed_per_whole(double met, double whole) const noexcept;
 
   static int split(const ConvexPolygon& polygon, Vec3 (*cells)[4]) noexcept;
   Status sample(const Cell& cell, Range blockers, bool keeps, Sums* sums);
