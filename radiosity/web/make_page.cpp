@@ -7,10 +7,9 @@
 #include "radiosity/output/picture.h"
 #include "radiosity/parallel/thread_pool.h"
 #include "radiosity/radiosity.h"
+#include "radiosity/scene/text_cursor.h"
 #include "radiosity/web/page_scene.h"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -27,11 +26,9 @@ void require(const Status& status) {
     throw std::runtime_error(std::string(status.message()));
 }
 
-std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  if (!file)
-    throw std::runtime_error(path + ": cannot be read");
+std::string contents(const std::string& path) {
+  std::string bytes;
+  require(read_file(path, &bytes));
   return bytes;
 }
 
@@ -113,13 +110,13 @@ void make_page(const std::string& module, const std::string& scene_path, const s
 
   const auto part = [&](const std::string& name) {
     if (name == "module")
-      return base64(read_file(module));
+      return base64(contents(module));
     if (name == "scene")
       return base64(packed(page));
-    return name == "facts" ? known : read_file((sources + "/").append(name));
+    return name == "facts" ? known : contents((sources + "/").append(name));
   };
   std::string html;
-  const std::string form = read_file(sources + "/page.html");
+  const std::string form = contents(sources + "/page.html");
   for (std::size_t at = 0; at < form.size();) {
     const std::size_t open = form.find("{{", at), close = form.find("}}", open);
     html.append(form, at, open - at);
